@@ -14,8 +14,9 @@ struct SampleRow {
   const char *name, *title, *text;
 };
 constexpr SampleRow kRows[] = {
-    {"giraffe", "Giraffe", "A cage around the whole animal. A few cage points bend its neck."},
-    {"gecko", "Gecko", "Pins hold and move the feet, head and tail."},
+    {"giraffe", "Giraffe",
+     "Pins hold the feet, and others lower the head. Nothing grows or shrinks much."},
+    {"gecko", "Gecko", "Pins move the feet, head and tail, which keep their sizes."},
     {"fish", "Fish", "A curved cage with few points. Drag its tangent handles."},
     {"octopus", "Octopus", "Nothing folds, however far you pull the pins. Try to break it."},
     {"snake", "Snake", "One stroke along its body. Move, bend or redraw the line."},

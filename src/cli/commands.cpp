@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/mesh/flatten.h"
 #include "scene/auto_cage.h"
+#include "scene/content_parts.h"
 #include "scene/flattened_surface.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/scene_json.h"
@@ -63,24 +64,27 @@ void run(const NewCommand& command) {
     throw Error(ErrorKind::bad_input, "--margin: the distance must not be negative");
   if (!(command.detail >= 0 && command.detail <= 100))
     throw Error(ErrorKind::bad_input, "--detail: give a number from 0 to 100");
+  if (!(command.hole_width >= 0 && command.hole_width <= 100))
+    throw Error(ErrorKind::bad_input, "--hole-width: give a percentage from 0 to 100");
   const Progress progress("new");
   const LoadedScene loaded = scene_of_image(command.image);
   print_warning(loaded);
   const Image& picture = *loaded.image();
   const double height = picture.height;
-  Deformation deformation =
-      with_cage({}, command.cage ? cage_of_file(*command.cage, picture)
-                                 : auto_cage(picture, {command.vertices, command.margin,
-                                                       command.detail, command.curved}));
+  Deformation deformation = with_cage(
+      {}, command.cage ? cage_of_file(*command.cage, picture)
+                       : auto_cage(picture, {command.vertices, command.margin, command.detail,
+                                             command.hole_width, command.curved}));
   check_rest_cage(deformation.rest);
-  if (command.pose)
+  if (command.pose) {
     deformation.pose =
         cage_of_svg(read_file(*command.pose), command.pose->string(), height, PathUse::pose);
-  if (deformation.pose.size() != deformation.rest.size())
-    throw Error(ErrorKind::bad_input,
-                command.pose->string() + ": the posed cage has " +
-                    std::to_string(deformation.pose.size()) + " segments, but the cage has " +
-                    std::to_string(deformation.rest.size()) + "; the numbers must agree");
+    try {
+      check_same_loops(deformation.rest, deformation.pose);
+    } catch (const Error& error) {
+      throw Error(error.kind(), command.pose->string() + ": " + error.what());
+    }
+  }
   if (command.outline) {
     const Flattening flattening = flattening_named(command.flattening);
     deformation.outline =
@@ -95,6 +99,9 @@ void run(const NewCommand& command) {
   write_result(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", shown_output(command.out).c_str(),
                static_cast<size_t>(deformation.rest.size()));
+  if (const std::string left = command.cage ? "" : left_out_text(smaller_parts(picture).size());
+      !left.empty())
+    std::fprintf(stderr, "%s: %s\n", shown_output(command.out).c_str(), left.c_str());
 }
 
 void run(const BenchCommand& command) {

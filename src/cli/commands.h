@@ -52,6 +52,7 @@ struct NewCommand {
   std::optional<int> vertices = {};   ///< none: as many as the shape needs
   std::optional<double> margin = {};  ///< in pixels; none: see AutoCageOptions::detail
   double detail = 50;
+  double hole_width = 3;  ///< percent; see AutoCageOptions::hole_width
   bool curved = false;
   std::optional<Path> cage;     ///< SVG file or surface with texture coordinates
   std::optional<Path> pose;     ///< SVG file

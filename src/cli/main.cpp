@@ -192,12 +192,16 @@ void CommandLine::add_new(CLI::App& app) {
   sub->add_option("--detail", new_scene.detail,
                   "How closely the cage follows the content, 0 to 100")
       ->capture_default_str();
+  sub->add_option("--hole-width", new_scene.hole_width,
+                  "Empty regions inside the content that are wider than this percentage of its "
+                  "size become holes; 100 fills all of them")
+      ->capture_default_str();
   sub->add_option("--vertices", new_scene.vertices,
                   "Approximate number of cage vertices; by default as many as the shape needs");
   sub->add_option(
       "--margin", new_scene.margin,
-      "Distance of the cage from the content in pixels; by default as close as --detail "
-      "wants, and never across a gap between limbs");
+      "Distance of the cage from the content in pixels; by default chosen by --detail, and reduced "
+      "to keep gaps between limbs open where possible");
   sub->add_flag("--curved", new_scene.curved, "Use cubic segments instead of straight edges");
   sub->add_option("--cage", new_scene.cage,
                   "Read the cage from a file: the path \"rest\", or else the first path, of an SVG "

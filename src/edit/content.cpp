@@ -23,15 +23,14 @@ namespace {
 Box resting_box(const Cage& cage, const Image* image) {
   if (!image) return {};
   constexpr double kOnEdge = 1e-6;  // px
-  const Points outline = outline_of(cage);
+  const Polygon outline = outline_of(cage);
   const double width = image->width, height = image->height;
   Box box;
   bool stays = false;
   for (const Complex& corner : Points{{0, 0}, {width, 0}, {width, height}, {0, height}}) {
     box.include(corner);
-    stays = stays || outline.empty() ||
-            (winding_number(outline, corner) == 0 &&
-             nearest_on_polygon(outline, corner).distance > kOnEdge);
+    stays = stays || outline.points.empty() ||
+            (!encloses(outline, corner) && nearest_on_polygon(outline, corner).distance > kOnEdge);
   }
   return stays ? box : Box{};
 }

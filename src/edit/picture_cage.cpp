@@ -2,17 +2,9 @@
 // meanwhile.
 #include "edit/picture_cage.h"
 
+#include "scene/content_parts.h"
+
 namespace holomorph {
-namespace {
-
-std::string left_out_text(size_t count) {
-  const std::string parts = count == 1 ? "another part of the picture stays"
-                                       : std::to_string(count) + " other parts of the picture stay";
-  return "The cage holds the largest part; " + parts + " outside.";
-}
-
-}  // namespace
-
 void make_picture_cage(Workspace& workspace, std::function<bool(Cage)> then) {
   const auto cage = std::make_shared<Cage>();
   const auto others = std::make_shared<std::vector<Box>>();

@@ -54,14 +54,20 @@ bool Workspace::accepts(const Scene& scene) {
   return true;
 }
 
-/// A dragged pose with the turns of the map that shows it, so that the file decides which of
-/// several maps is found again.
 Deformation Workspace::with_turns(Deformation deformation) const {
   const LiveMap& live = map();
-  const auto& turns = live.map().turns;
-  if (turns.size() != deformation.pins.size() || !live.posed() ||
-      !same_rest(*live.posed(), deformation))
+  if (!live.has_map() || !live.posed() || !same_rest(*live.posed(), deformation))
     return deformation;
+  const auto& turns = live.map().turns;
+  if (turns.empty()) {
+    // Another method has no turns. Those of the moved pins no longer belong to their places.
+    const std::vector<Pin>& before = shown.base().pins;
+    for (size_t i = 0; i < deformation.pins.size(); ++i)
+      if (i >= before.size() || before[i].pose != deformation.pins[i].pose)
+        deformation.pins[i].turn.reset();
+    return deformation;
+  }
+  if (turns.size() != deformation.pins.size()) return deformation;
   constexpr double kSteps = 1000;  // per radian
   for (size_t i = 0; i < turns.size(); ++i)
     if (turns[i]) deformation.pins[i].turn = std::round(kSteps * *turns[i]) / kSteps;
@@ -78,6 +84,7 @@ bool Workspace::commit(const std::string& label, Deformation deformation, EditBa
 }
 
 bool Workspace::amend(Deformation deformation, EditBase base) {
+  if (shown.preview == deformation) deformation = with_turns(std::move(deformation));
   return enter(with_deformation(document.scene(), std::move(deformation)), base,
                [&](Scene entered) { document.amend(std::move(entered)); });
 }

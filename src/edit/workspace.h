@@ -125,6 +125,9 @@ struct Workspace {
   bool commit(const std::string& label, Deformation deformation, EditBase base = EditBase::shown);
   /// Replaces the result of the last undo step. Rejects the same scenes as commit.
   bool amend(Deformation deformation, EditBase base = EditBase::shown);
+  /// A dragged deformation with the turns of the map that shows it. The file then decides which of
+  /// several maps is found again. Pins that moved by a method without turns lose theirs.
+  Deformation with_turns(Deformation deformation) const;
   /// Merges small edits into one step: amends the last step if it has the same label and the
   /// selection has not changed since, else adds a step.
   void commit_or_amend(const std::string& label, Deformation deformation,
@@ -178,7 +181,6 @@ struct Workspace {
   Deformation keyed(Deformation deformation);
   bool continues_step(const std::string& label) const;
   bool changes_closed_layer(const Scene& scene) const;
-  Deformation with_turns(Deformation deformation) const;
   void leave_layer();
   /// Whether a scene may enter the history. If not, a toast says why.
   bool accepts(const Scene& scene);

@@ -128,6 +128,16 @@ class Drawing {
     pieces_.push_back(piece);
   }
 
+  /// Calls visit with the vertices of each edge.
+  template <class Visit>
+  void for_each_boundary_edge(Visit visit) const {
+    const std::vector<int>& boundary = job_.mesh->boundary;
+    const Loops loops = job_.mesh->boundary_loops();
+    for (Index i = 0; i < static_cast<Index>(boundary.size()); ++i)
+      visit(static_cast<size_t>(boundary[static_cast<size_t>(i)]),
+            static_cast<size_t>(boundary[static_cast<size_t>(loops.next(i))]));
+  }
+
   void add_surroundings() {
     const double w = job_.source->width, h = job_.source->height;
     const Complex a{0, h}, b{w, h}, c{w, 0}, d{0, 0};
@@ -135,10 +145,9 @@ class Drawing {
     add_piece({a, b, c}, u1, v1, job_.mesh != nullptr);
     add_piece({a, c, d}, u2, v2, job_.mesh != nullptr);
     if (!job_.mesh) return;
-    const std::vector<int>& loop = job_.mesh->boundary;
-    for (size_t i = 0; i < loop.size(); ++i)
-      cage_.push_back(
-          edge_of(job_.mesh->vertices[loop[i]], job_.mesh->vertices[loop[(i + 1) % loop.size()]]));
+    for_each_boundary_edge([&](size_t a, size_t b) {
+      cage_.push_back(edge_of(job_.mesh->vertices[a], job_.mesh->vertices[b]));
+    });
   }
 
   void add_mesh() {
@@ -153,9 +162,9 @@ class Drawing {
       }
       add_piece({job_.positions[t[0]], job_.positions[t[1]], job_.positions[t[2]]}, u, v, false);
     }
-    for (size_t i = 0; i < mesh.boundary.size(); ++i)
-      silhouette_.push_back(edge_of(job_.positions[mesh.boundary[i]],
-                                    job_.positions[mesh.boundary[(i + 1) % mesh.boundary.size()]]));
+    for_each_boundary_edge([&](size_t a, size_t b) {
+      silhouette_.push_back(edge_of(job_.positions[a], job_.positions[b]));
+    });
   }
 
   void bin() {

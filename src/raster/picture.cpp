@@ -131,7 +131,7 @@ class PictureMaker::LayerMaker {
     motion_.follow(deformation_, linear_blend_, prepared_);
     if (motion_.error()) throw Error(*motion_.error());
     if (!motion_.plays()) return map_at({}, derivatives);
-    return blended_map(*prepared_->mesh, motion_.map_at(*time), derivatives);
+    return motion_.sampled_at(*time, derivatives);
   }
 
   const Layer& layer_;

@@ -1,11 +1,9 @@
-// The offset outline is a level curve of the content's distance field, traced by marching squares.
-// simplified_around() then simplifies the outline. The result still encloses a lower level curve,
-// which in turn encloses the content.
+// The cage is a polygon with edges as long as possible in a band around the content, or a fit to
+// level curves of the content's distance field.
 #include "scene/auto_cage.h"
 
 #include <algorithm>
-#include <functional>
-#include <map>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -13,225 +11,24 @@
 #include "core/geometry/curve_around.h"
 #include "core/geometry/polyline.h"
 #include "core/geometry/simplify.h"
+#include "scene/cell_grid.h"
+#include "scene/content_parts.h"
+#include "scene/enclosed_regions.h"
+#include "scene/limits.h"
 
 namespace holomorph {
 namespace {
-
-/// A grid of bytes or distances with a border around it.
-template <class T>
-struct Grid {
-  int width, height;
-  std::vector<T> cells;
-  Grid(int w, int h, T fill) : width(w), height(h), cells(static_cast<size_t>(w) * h, fill) {}
-  T& operator()(int c, int r) { return cells[static_cast<size_t>(r) * width + c]; }
-  T operator()(int c, int r) const { return cells[static_cast<size_t>(r) * width + c]; }
-};
-
-/// A run of ones in a row, and its parent in the union-find forest of connected parts.
-struct Run {
-  int row, begin, end;
-  size_t parent;
-};
-
-std::vector<Run> runs_of(const Grid<std::uint8_t>& mask) {
-  std::vector<Run> runs;
-  for (int r = 0; r < mask.height; ++r)
-    for (int c = 0; c < mask.width; ++c) {
-      if (!mask(c, r)) continue;
-      const int begin = c;
-      while (c < mask.width && mask(c, r)) ++c;
-      runs.push_back({r, begin, c, runs.size()});
-    }
-  return runs;
-}
-
-size_t root_of(std::vector<Run>& runs, size_t run) {
-  while (runs[run].parent != run) run = runs[run].parent = runs[runs[run].parent].parent;
-  return run;
-}
-
-/// The runs of a mask, joined to 8-connected sets.
-std::vector<Run> joined_runs_of(const Grid<std::uint8_t>& mask) {
-  std::vector<Run> runs = runs_of(mask);
-  size_t above = 0;  // the first run of the previous row that may touch this one
-  for (size_t i = 0; i < runs.size(); ++i) {
-    while (runs[above].row < runs[i].row - 1 ||
-           (runs[above].row == runs[i].row - 1 && runs[above].end < runs[i].begin))
-      ++above;
-    for (size_t j = above; j < i && runs[j].row == runs[i].row - 1 && runs[j].begin <= runs[i].end;
-         ++j)
-      runs[root_of(runs, i)].parent = root_of(runs, j);
-  }
-  return runs;
-}
-
-/// The number of cells of each connected set, at the index of its root.
-std::vector<size_t> sizes_of(std::vector<Run>& runs) {
-  std::vector<size_t> sizes(runs.size(), 0);
-  for (size_t i = 0; i < runs.size(); ++i)
-    sizes[root_of(runs, i)] += static_cast<size_t>(runs[i].end - runs[i].begin);
-  return sizes;
-}
-
-/// Clears all ones outside the largest 8-connected set.
-void keep_largest_part(Grid<std::uint8_t>& mask) {
-  std::vector<Run> runs = joined_runs_of(mask);
-  const std::vector<size_t> sizes = sizes_of(runs);
-  const size_t best =
-      static_cast<size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  for (size_t i = 0; i < runs.size(); ++i)
-    if (root_of(runs, i) != best)
-      for (int c = runs[i].begin; c < runs[i].end; ++c) mask(c, runs[i].row) = 0;
-}
-
-Grid<std::uint8_t> content_of(const Image& image) {
-  Grid<std::uint8_t> mask(image.width, image.height, 0);
-  for (size_t i = 0; i < mask.cells.size(); ++i)
-    mask.cells[i] = image.pixels[4 * i + 3] > kOpaqueAlpha;
-  return mask;
-}
-
-/// Computes one line of the exact squared Euclidean distance transform as the lower envelope of
-/// parabolas.
-void transform_line(const std::vector<double>& f, std::vector<double>& d, std::vector<int>& site,
-                    std::vector<double>& bound) {
-  const int n = static_cast<int>(f.size());
-  int k = -1;
-  for (int q = 0; q < n; ++q) {
-    if (f[q] >= 1e20) continue;
-    double s = -1e20;
-    while (k >= 0) {
-      const int p = site[k];
-      s = ((f[q] + static_cast<double>(q) * q) - (f[p] + static_cast<double>(p) * p)) /
-          (2.0 * (q - p));
-      if (s > bound[k]) break;
-      --k;
-    }
-    site[++k] = q;
-    bound[k] = k == 0 ? -1e20 : s;
-    bound[k + 1] = 1e20;
-  }
-  if (k < 0) return void(std::fill(d.begin(), d.end(), 1e20));
-  for (int q = 0, i = 0; q < n; ++q) {
-    while (bound[i + 1] < q) ++i;
-    d[q] = (q - site[i]) * static_cast<double>(q - site[i]) + f[site[i]];
-  }
-}
-
-/// The distance from the center of each cell to the nearest center of a set cell, in cells.
-Grid<float> distance_field(const Grid<std::uint8_t>& mask) {
-  Grid<float> field(mask.width, mask.height, 1e20f);
-  const int longest = std::max(mask.width, mask.height);
-  std::vector<double> f, d, bound(longest + 2);
-  std::vector<int> site(longest + 1);
-  for (int c = 0; c < mask.width; ++c) {
-    f.assign(mask.height, 1e20), d.assign(mask.height, 0);
-    for (int r = 0; r < mask.height; ++r) f[r] = mask(c, r) ? 0 : 1e20;
-    transform_line(f, d, site, bound);
-    for (int r = 0; r < mask.height; ++r) field(c, r) = static_cast<float>(d[r]);
-  }
-  for (int r = 0; r < mask.height; ++r) {
-    f.assign(mask.width, 0), d.assign(mask.width, 0);
-    for (int c = 0; c < mask.width; ++c) f[c] = field(c, r);
-    transform_line(f, d, site, bound);
-    for (int c = 0; c < mask.width; ++c) field(c, r) = static_cast<float>(std::sqrt(d[c]));
-  }
-  return field;
-}
-
-/// The outermost level curve {field = level}, as a closed polygon. Lower values lie to its left.
-/// The center of cell (c, r) is at c - i r, and r increases downwards.
-Points level_curve(const Grid<float>& field, double level) {
-  const auto inside = [&](int c, int r) { return field(c, r) < level; };
-  /// A square between four centers of cells, and the side through which the curve enters it. Sides
-  /// and corners are counted counter-clockwise, from the lower side and the lower left corner.
-  struct Step {
-    int c, r, side;
-    bool operator==(const Step&) const = default;
-  };
-  const auto after = [&](Step at) {
-    const bool corner[4] = {inside(at.c, at.r + 1), inside(at.c + 1, at.r + 1),
-                            inside(at.c + 1, at.r), inside(at.c, at.r)};
-    const auto is_exit = [&](int side) { return !corner[side] && corner[(side + 1) % 4]; };
-    // At a saddle, the two inside corners are connected. Therefore the curve leaves by the exit
-    // that precedes the entry.
-    int side = (at.side + 3) % 4;
-    while (!is_exit(side)) side = (side + 3) % 4;
-    constexpr int kRight[] = {0, 1, 0, -1}, kDown[] = {1, 0, -1, 0};
-    return Step{at.c + kRight[side], at.r + kDown[side], (side + 2) % 4};
-  };
-  const auto place = [&](const Step& at) {
-    const bool upright = at.side % 2 == 1;  // a side between two rows
-    const int c = at.c + (at.side == 1), r = at.r + (at.side == 0);
-    const double a = field(c, r), b = upright ? field(c, r + 1) : field(c + 1, r);
-    const double t = std::clamp((level - a) / (b - a), 0.0, 1.0);
-    return upright ? Complex(c, -(r + t)) : Complex(c + t, -r);
-  };
-  for (int r = 1; r < field.height; ++r)
-    for (int c = 1; c < field.width; ++c) {
-      if (!inside(c, r)) continue;
-      const Step start{c - 1, r - 1, 1};
-      Points loop;
-      for (Step at = start; loop.empty() || at != start; at = after(at))
-        if (const Complex z = place(at); loop.empty() || z != loop.back()) loop.push_back(z);
-      if (loop.size() > 2 && loop.front() == loop.back()) loop.pop_back();
-      return loop;
-    }
-  return {};
-}
 
 Points rectangle(const Image& image, double margin) {
   const double right = image.width + margin, top = image.height + margin;
   return {{-margin, -margin}, {right, -margin}, {right, top}, {-margin, top}};
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> largest_part(const Image& image) {
-  Grid<std::uint8_t> mask = content_of(image);
-  keep_largest_part(mask);
-  const bool any = std::find(mask.cells.begin(), mask.cells.end(), 1) != mask.cells.end();
-  return any ? std::move(mask.cells) : std::vector<std::uint8_t>{};
-}
-
-std::vector<Box> smaller_parts(const Image& image) {
-  if (!has_transparency(image)) return {};
-  std::vector<Run> runs = joined_runs_of(content_of(image));
-  const std::vector<size_t> sizes = sizes_of(runs);
-  if (runs.empty()) return {};
-  const size_t largest =
-      static_cast<size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  std::map<size_t, Box> boxes;
-  for (size_t i = 0; i < runs.size(); ++i) {
-    const size_t root = root_of(runs, i);
-    if (root == largest || 1000 * sizes[root] < sizes[largest]) continue;
-    const double top = image.height - runs[i].row;
-    boxes[root].include(Complex(runs[i].begin, top - 1));
-    boxes[root].include(Complex(runs[i].end, top));
-  }
-  std::vector<std::pair<size_t, Box>> by_size;
-  for (const auto& [root, box] : boxes) by_size.emplace_back(sizes[root], box);
-  std::ranges::stable_sort(by_size, std::greater<>{}, &std::pair<size_t, Box>::first);
-  std::vector<Box> parts;
-  for (const auto& [size, box] : by_size) parts.push_back(box);
-  return parts;
-}
-
-namespace {
-
-/// The value of a field between the centers of its cells.
-double value_at(const Grid<float>& field, Complex z) {
-  const double x = z.real(), y = -z.imag();
-  const int c = static_cast<int>(x), r = static_cast<int>(y);
-  const double u = x - c, v = y - r;
-  return (1 - v) * ((1 - u) * field(c, r) + u * field(c + 1, r)) +
-         v * ((1 - u) * field(c, r + 1) + u * field(c + 1, r + 1));
-}
-
 /// The part of the content around which the cage is made, on a grid of cells. A cell covers scale x
 /// scale pixels. Lengths are in cells; distances are those between the centers of cells.
 struct Part {
   Grid<float> distance;       ///< to the part
+  Grid<std::uint8_t> others;  ///< cells with content that does not belong to the part
   int scale, border, height;  ///< border: empty cells at each side; height: of the picture, pixels
   double size;                ///< diagonal of the part's box
 
@@ -242,8 +39,8 @@ struct Part {
 };
 
 /// None if the picture has no content or no transparency. Around the part, there is room for
-/// distances up to `reach` pixels and up to `share` of the part's size.
-std::optional<Part> part_of(const Image& image, double share, double reach) {
+/// distances up to `reach` pixels and up to a fraction of the part's size.
+std::optional<Part> part_of(const Image& image, double fraction, double reach) {
   if (!has_transparency(image)) return {};
   const std::vector<std::uint8_t> part = largest_part(image);
   if (part.empty()) return {};
@@ -258,13 +55,17 @@ std::optional<Part> part_of(const Image& image, double share, double reach) {
   const int longest = std::max(image.width, image.height);
   const int scale = (longest + kMostCells - 1) / kMostCells;
   const double size = (box.diagonal() + 1) / scale;
-  const int border = static_cast<int>(std::ceil(std::max(share * size, reach / scale))) + 5;
+  const int border = static_cast<int>(std::ceil(std::max(fraction * size, reach / scale))) + 5;
   Grid<std::uint8_t> cells((image.width - 1) / scale + 1 + 2 * border,
                            (image.height - 1) / scale + 1 + 2 * border, 0);
+  Grid<std::uint8_t> others = cells;
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c)
-      if (is_set(c, r)) cells(border + c / scale, border + r / scale) = 1;
-  return Part{distance_field(cells), scale, border, image.height, size};
+      if (is_set(c, r))
+        cells(border + c / scale, border + r / scale) = 1;
+      else if (image.at(c, r)[3] > kOpaqueAlpha)
+        others(border + c / scale, border + r / scale) = 1;
+  return Part{distance_field(cells), std::move(others), scale, border, image.height, size};
 }
 
 // Distances between the centers of cells. Level curves cut off corners, so that whole cells are
@@ -301,6 +102,21 @@ Grid<int> nearest_points(const Part& part, const Points& edge, double reach) {
   return nearest;
 }
 
+/// Where two cells of the middle of a gap touch only at a corner, adds the one between them that is
+/// farther from the part. A level curve would otherwise close the gap there.
+void join_diagonals(const Part& part, Grid<std::uint8_t>& middles) {
+  for (int r = 0; r + 1 < middles.height; ++r)
+    for (int c = 0; c + 1 < middles.width; ++c)
+      for (const int left : {0, 1}) {  // the upper left and lower right cells, or the other two
+        const int a = c + left, b = c + 1 - left;
+        if (!middles(a, r) || !middles(b, r + 1) || middles(b, r) || middles(a, r + 1)) continue;
+        if (part.distance(b, r) >= part.distance(a, r + 1))
+          middles(b, r) = 1;
+        else
+          middles(a, r + 1) = 1;
+      }
+}
+
 /// The distance to the middle of narrow gaps between limbs, and of the regions in front of them.
 /// There, the nearest points of the part's edge are farther apart along the edge than a tenth of
 /// the size for two neighboring cells. None if there are no gaps up to this distance from the part.
@@ -327,6 +143,7 @@ std::optional<Grid<float>> distance_to_gaps(const Part& part, double reach) {
         any = true;
       }
   if (!any) return {};
+  join_diagonals(part, middles);
   return distance_field(middles);
 }
 
@@ -352,23 +169,37 @@ class Band {
     for (size_t i = 0; i < field.cells.size(); ++i)
       field.cells[i] = std::max(
           field.cells[i],
-          static_cast<float>(middle_ / kMiddle * share(field.cells[i], to_gaps_->cells[i])));
+          static_cast<float>(middle_ / kMiddle * part_of_way(field.cells[i], to_gaps_->cells[i])));
     return level_curve(field, middle_);
+  }
+  /// The same in an enclosed region that is at least kLeastHole deep.
+  Points middle_in(const EnclosedRegion& region) const {
+    return region.curve(std::min(middle_, 0.5 * (kEnclosing + region.deepest)));
   }
   /// A curve that encloses the part and lies inside the band.
   Points inner() const { return level_curve(part_.distance, kEnclosing); }
 
-  bool contains(Complex z) const {
-    constexpr double kOuter = 0.94;
-    const double d = value_at(part_.distance, z);
-    return d >= kEnclosing && d <= outer_ &&
-           (!to_gaps_ || share(d, value_at(*to_gaps_, z)) <= kOuter);
+  /// Whether an edge between two points of the band remains inside it. The steps are short near the
+  /// middle of a gap, which is a thin barrier.
+  bool contains(Complex a, Complex b) const {
+    constexpr double kLongest = 0.5, kShortest = 0.1, kOuter = 0.94;
+    const double length = std::abs(b - a);
+    double step = kShortest;
+    for (double at = step; at < length; at += step) {
+      const Complex z = a + (b - a) * (at / length);
+      const double d = value_at(part_.distance, z);
+      if (d < kEnclosing || d > outer_) return false;
+      const double to_gap = to_gaps_ ? value_at(*to_gaps_, z) : HUGE_VAL;
+      if (part_of_way(d, to_gap) > kOuter) return false;
+      step = std::clamp(to_gap, kShortest, kLongest);
+    }
+    return true;
   }
 
  private:
   /// How far a point is on the way from the part to the middle of a gap. Gaps of one or two cells
   /// are ignored, because they have no room for two edges of the cage.
-  static double share(double d, double to_gap) { return d > kTurning ? d / (d + to_gap) : 0; }
+  static double part_of_way(double d, double to_gap) { return d > kTurning ? d / (d + to_gap) : 0; }
   static constexpr double kTurning = 1.05;
 
   const Part& part_;
@@ -376,16 +207,11 @@ class Band {
   double outer_, middle_;
 };
 
-/// A polygon in the band with edges as long as possible.
-Points polygon_in(const Band& band) {
-  const Points curve = band.middle();
+/// A polygon in the band with edges as long as possible and vertices on a curve in the band.
+Points polygon_in(const Band& band, const Points& curve) {
   const size_t n = curve.size();
   const auto is_free = [&](size_t i, size_t j) {
-    const Complex a = curve[i % n], b = curve[j % n];
-    const int steps = static_cast<int>(2 * std::abs(b - a)) + 1;
-    for (int k = 1; k < steps; ++k)
-      if (!band.contains(a + (b - a) * (static_cast<double>(k) / steps))) return false;
-    return true;
+    return band.contains(curve[i % n], curve[j % n]);
   };
   // The farthest point up to `end` that an edge from i can reach.
   const auto reach = [&](size_t i, size_t end) {
@@ -413,7 +239,8 @@ Points tight_polygon(const Part& part, const Grid<float>* to_gaps, double usual_
   for (const Grid<float>* gaps : {to_gaps, static_cast<const Grid<float>*>(nullptr)}) {
     margin = usual_margin;
     for (int tries = 0; tries < kTries; ++tries) {
-      const Points polygon = polygon_in(Band(part, gaps, margin));
+      const Band band(part, gaps, margin);
+      const Points polygon = polygon_in(band, band.middle());
       const bool crosses = self_crossing(polygon).has_value(),
                  fits = static_cast<int>(polygon.size()) <= most;
       if (fits && !crosses) return polygon;
@@ -424,6 +251,29 @@ Points tight_polygon(const Part& part, const Grid<float>* to_gaps, double usual_
                            Band(part, nullptr, margin).inner(), most);
 }
 
+constexpr double kLeastHole = 3;  ///< depth in cells; shallower regions have no room for a polygon
+
+/// Polygons in the enclosed regions that become holes, with at most `most` vertices in all.
+std::vector<Points> hole_polygons(const Part& part, double margin, double least_width, int most) {
+  const double least = std::max(kLeastHole, 0.5 * least_width);
+  std::vector<Points> polygons;
+  size_t vertices = 0;
+  for (const EnclosedRegion& region : enclosed_regions(part.distance, part.others, least)) {
+    for (double narrower = std::min(margin, region.deepest / 3); narrower > 0.1; narrower *= 0.6) {
+      const Band band(part, nullptr, narrower);
+      Points polygon = polygon_in(band, band.middle_in(region));
+      if (self_crossing(polygon)) continue;
+      if (polygon.size() >= 3 && polygons.size() < kMaxHoles &&
+          vertices + polygon.size() <= static_cast<size_t>(most)) {
+        vertices += polygon.size();
+        polygons.push_back(std::move(polygon));
+      }
+      break;
+    }
+  }
+  return polygons;
+}
+
 /// A closed curve with fewer points, for fits whose cost grows with their number.
 Points thinned(const Points& curve) {
   constexpr Index kMost = 4000;
@@ -432,7 +282,7 @@ Points thinned(const Points& curve) {
 }
 
 /// The cage rounded to 1/16 px, which keeps numbers in files short. Rounding cannot move the cage
-/// into the content, which is at least 0.7 cells away.
+/// into the content: see kEnclosing.
 Cage rounded(Cage cage) {
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z = {std::round(z.real() * 16) / 16, std::round(z.imag() * 16) / 16};
@@ -448,6 +298,8 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
                 "a cage has 3 to 500 vertices, not " + std::to_string(*options.vertices));
   if (!(options.detail >= 0 && options.detail <= 100))
     throw Error(ErrorKind::bad_input, "the detail must be between 0 and 100");
+  if (!(options.hole_width >= 0 && options.hole_width <= 100))
+    throw Error(ErrorKind::bad_input, "the width of holes must be between 0 and 100 percent");
   const int longest = std::max(image.width, image.height);
   if (options.margin && !(std::abs(*options.margin) <= 4.0 * longest))
     throw Error(ErrorKind::bad_input,
@@ -467,6 +319,10 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
     for (Complex& z : points) z = part->in_picture(z);
     return points;
   };
+  const std::vector<Points> holes =
+      hole_polygons(*part, margin, 0.01 * options.hole_width * part->size, kMostVertices / 2);
+  int left = kMostVertices;
+  for (const Points& hole : holes) left -= static_cast<int>(hole.size());
   Band band(*part, to_gaps, margin);
   const int usual_vertices = static_cast<int>(std::lround(30 * std::exp2(options.detail / 50 - 1))),
             vertices = options.vertices.value_or(usual_vertices);
@@ -478,13 +334,15 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
                          thinned(in_picture(level_curve(part->distance, kept))), vertices);
   } else if (options.vertices) {
     band.narrow();
-    const Points polygon = polygon_in(band);
+    const Points polygon = polygon_in(band, band.middle());
     cage =
         polygon_cage(simplified_around(in_picture(self_crossing(polygon) ? band.middle() : polygon),
                                        in_picture(band.inner()), vertices));
   } else {
-    cage = polygon_cage(in_picture(tight_polygon(*part, to_gaps, margin, kMostVertices)));
+    cage = polygon_cage(in_picture(tight_polygon(*part, to_gaps, margin, left)));
   }
+  for (const Points& hole : holes)
+    add_hole(cage, reversed(polygon_cage(in_picture(hole))).segments);
   Cage round = rounded(cage);
   return rest_fault(round) ? cage : round;
 }

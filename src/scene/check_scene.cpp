@@ -39,6 +39,7 @@ void check_point(const std::string& what, Complex z) {
 
 void check_cage(const std::string& what, const Cage& cage) {
   check_count("segments in " + what, cage.segments.size(), kMaxSegments);
+  check_count("holes in " + what, cage.holes.size(), kMaxHoles);
   for (const Points& segment : cage.segments) {
     if (segment.empty()) fail(what + " has a segment without control points");
     if (segment.size() > kHighestDegree)
@@ -74,10 +75,7 @@ void check_pin(const std::string& what, const PosePin& pin) {
 void check_handles(const Deformation& deformation) {
   check_cage("the cage", deformation.rest);
   check_cage("the posed cage", deformation.pose);
-  if (deformation.rest.size() != deformation.pose.size())
-    fail("the posed cage has " + std::to_string(deformation.pose.size()) +
-         " segments, but the rest cage has " + std::to_string(deformation.rest.size()) +
-         "; they must agree");
+  check_same_loops(deformation.rest, deformation.pose);
   if (deformation.has_cage()) check_rest_cage(deformation.rest);
   check_count("pins", deformation.pins.size(), kMaxPins);
   for (size_t i = 0; i < deformation.pins.size(); ++i) {
@@ -151,7 +149,7 @@ bool has_extras(const Deformation& deformation) {
   const auto kept = [](const auto& part) { return !part.extra.empty(); };
   const auto kept_in_pose = [](const Keyframe& key) { return !key.pose_extra.empty(); };
   return !deformation.cage_extra.empty() || !deformation.method_extra.empty() ||
-         (deformation.surface && kept(*deformation.surface)) ||
+         (deformation.surface && kept(*deformation.surface)) || !deformation.hole_extras.empty() ||
          std::ranges::any_of(deformation.pins, kept) ||
          std::ranges::any_of(deformation.strokes, kept) ||
          std::ranges::any_of(deformation.corners, kept) ||

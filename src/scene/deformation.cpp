@@ -45,7 +45,7 @@ Pose pose_of(const Deformation& deformation) {
 // If a pose has no corners, it was stored before the list of corners existed. All corners are then
 // at rest.
 bool fits(const Deformation& deformation, const Pose& pose) {
-  return pose.cage.size() == deformation.rest.size() &&
+  return pose.cage.size() == deformation.rest.size() && pose.cage.holes == deformation.rest.holes &&
          pose.pins.size() == deformation.pins.size() &&
          pose.strokes.size() == deformation.strokes.size() &&
          (pose.corners.empty() || pose.corners.size() == deformation.corners.size());
@@ -84,6 +84,7 @@ Deformation at_rest(Deformation deformation) {
 Deformation with_cage(Deformation deformation, Cage cage) {
   deformation.rest = std::move(cage);
   deformation.corners.clear();  // the vertices have changed
+  deformation.hole_extras.clear();
   return at_rest(std::move(deformation));
 }
 

@@ -67,8 +67,8 @@ struct Keyframe {
   bool operator==(const Keyframe&) const = default;
 };
 
-/// How a picture is deformed. The rest and posed cages have the same number of segments; both are
-/// empty until a cage is drawn. Value type.
+/// How a picture is deformed. The rest and posed cages have the same loops with the same numbers of
+/// segments; both are empty until a cage is drawn. Value type.
 struct Deformation {
   Cage rest, pose;
   std::vector<Pin> pins = {};
@@ -84,6 +84,7 @@ struct Deformation {
   /// The parameters of previously used methods, by method id.
   std::map<std::string, Parameters> other_parameters = {};
   Extra cage_extra = {}, method_extra = {};
+  std::vector<Extra> hole_extras = {};  ///< one for each hole, or none
 
   bool has_cage() const { return rest.size() > 0; }
   bool operator==(const Deformation&) const = default;
@@ -91,8 +92,8 @@ struct Deformation {
 
 /// The pose of all handles, including those that the method does not use.
 Pose whole_pose_of(const Deformation& deformation);
-/// Whether a pose has the same numbers of cage segments, pins, strokes and corners as the
-/// deformation.
+/// Whether a pose has the same holes and the same numbers of cage segments, pins, strokes and
+/// corners as the deformation.
 bool fits(const Deformation& deformation, const Pose& pose);
 /// The deformation with this pose, which must fit the handles.
 Deformation posed_as(Deformation deformation, const Pose& pose);

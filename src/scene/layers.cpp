@@ -13,7 +13,7 @@ namespace {
 
 /// An id that has never been used before, not even by a deleted layer, because undo may bring that
 /// layer back.
-int fresh_id() {
+int fresh_layer_id() {
   static std::atomic<int> last = 1'000'000;
   return ++last;
 }
@@ -49,7 +49,7 @@ Scene with_layers_added(Scene scene, const Scene& added) {
   if (scene.layers.size() + added.layers.size() > kMaxLayers)
     throw Error(ErrorKind::bad_input, "a scene has at most 100 layers");
   std::vector<Layer> more = layers_of(added);
-  for (Layer& layer : more) layer.id = fresh_id();
+  for (Layer& layer : more) layer.id = fresh_layer_id();
   const std::vector<SharedLayer> above = shared(std::move(more));
   const size_t place = scene.edited + 1;
   scene.layers.insert(scene.layers.begin() + static_cast<long>(place), above.begin(), above.end());

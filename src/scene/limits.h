@@ -9,6 +9,7 @@ inline constexpr double kMaxCoordinate = 1e8;  ///< absolute value of x and y, i
 inline constexpr size_t kMaxLayers = 100;
 inline constexpr int kMaxImageSide = 1 << 20;  ///< pixels
 inline constexpr size_t kMaxSegments = 5000;   ///< in one cage
+inline constexpr size_t kMaxHoles = 100;       ///< in one cage
 inline constexpr size_t kMaxPins = 2000, kMaxStrokes = 200;
 inline constexpr size_t kMaxCurvePoints = 20000;  ///< in one stroke or outline
 inline constexpr double kMaxDabLevel = 10;        ///< powers of ten, in absolute value

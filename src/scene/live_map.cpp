@@ -141,8 +141,7 @@ bool LiveMap::pose_at_time(const Deformation& deformation, EvalOptions options) 
     if (!iterates(deformation) || motion_.unknown(deformation, prepared_) == 0)
       motion_.follow(deformation, moment_.linear_blend, prepared_);
     if (!motion_.plays()) return false;
-    SampledMap map =
-        blended_map(*prepared_->mesh, motion_.map_at(*moment_.time), options.derivatives);
+    SampledMap map = motion_.sampled_at(*moment_.time, options.derivatives);
     if (motion_.error()) map.note = "does not play: " + std::string(motion_.error()->what());
     timed_ = motion_.deformation_at(deformation, *moment_.time, map.f);
     posed_ = examined_map(*prepared_, deformation, options, std::move(map), &posed_);

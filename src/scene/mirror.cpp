@@ -18,19 +18,22 @@ size_t counterpart(const Mirror& mirror, const Points& positions, Complex z, con
 
 Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
   const Points vertices = vertices_of(rest);
-  const size_t n = vertices.size();
   Cage result;
-  for (size_t e = 0; e < n; ++e) {
-    // The mirrored cage runs in the opposite direction. Therefore the counterpart of segment e
-    // starts at the counterpart of the vertex where e ends.
-    const size_t start = counterpart(mirror, vertices, vertices[e], "cage point"),
-                 end = counterpart(mirror, vertices, vertices[(e + 1) % n], "cage point");
-    if ((end + 1) % n != start)
+  result.holes = rest.holes;
+  for (Index e = 0; e < rest.size(); ++e) {
+    // The mirrored cage usually runs in the opposite direction. The counterpart of segment e then
+    // starts at the counterpart of the vertex where e ends. Two holes may run in either direction.
+    const auto start =
+        static_cast<Index>(counterpart(mirror, vertices, rest.vertex(e), "cage point"));
+    const auto end =
+        static_cast<Index>(counterpart(mirror, vertices, rest.end_vertex(e), "cage point"));
+    const bool backward = rest.next(end) == start;
+    if (!backward && rest.next(start) != end)
       throw Error(ErrorKind::bad_input,
                   "the pose cannot be mirrored: the two sides of the cage do not match",
-                  vertices[e]);
-    Points controls = pose.controls(static_cast<Index>(end));
-    std::ranges::reverse(controls);
+                  rest.vertex(e));
+    Points controls = pose.controls(backward ? end : start);
+    if (backward) std::ranges::reverse(controls);
     controls.pop_back();
     result.segments.push_back(mirror(std::move(controls)));
   }

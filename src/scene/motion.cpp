@@ -19,20 +19,26 @@ double eased(Ease ease, double u) {
 }
 
 /// The expected rotation of the picture from one pose to another, including whole turns. It is the
-/// rotation of the first pin with an angle, or else the average rotation of the corners.
+/// rotation of the first pin with an angle, or else of the first pin with known turns, or else the
+/// average rotation of the corners.
 ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from, const Pose& to,
                                int turns) {
   ExpectedTurn expected;
   // Using slightly less than whole turns selects the smaller of two equally close rotations.
   expected.radians = 2 * kPi * turns * (1 - kTie);
   const Method& method = method_named(deformation.method);
-  if (method.uses_pins)
+  if (method.uses_pins) {
+    const auto rotated_by = [&](size_t i, double radians) {
+      expected.at = deformation.pins[i].rest;
+      expected.radians += radians;
+      return expected;
+    };
     for (size_t i = 0; i < deformation.pins.size(); ++i)
-      if (deformation.pins[i].angle) {
-        expected.at = deformation.pins[i].rest;
-        expected.radians += to.pins[i].angle - from.pins[i].angle;
-        return expected;
-      }
+      if (deformation.pins[i].angle) return rotated_by(i, to.pins[i].angle - from.pins[i].angle);
+    for (size_t i = 0; i < deformation.pins.size(); ++i)
+      if (from.pins[i].turn && to.pins[i].turn)
+        return rotated_by(i, *to.pins[i].turn - *from.pins[i].turn);
+  }
   if (!method.uses_corners || deformation.corners.empty()) return expected;
   const auto turned = [](const Pose& pose) {
     double sum = 0;
@@ -68,11 +74,14 @@ SampledMap blended_map(const Mesh& mesh, VectorXc f, bool derivatives) {
 
 size_t Motion::unknown(const Deformation& deformation,
                        const std::shared_ptr<PreparedMap>& prepared) const {
+  const std::vector<size_t> playing = playing_keys(deformation);
+  if (prepared != prepared_) return playing.size();
   size_t count = 0;
-  for (const size_t i : playing_keys(deformation))
-    if (prepared != prepared_ ||
-        std::ranges::find(keys_, deformation.keyframes[i].pose, &Key::pose) == keys_.end())
-      ++count;
+  for (size_t k = 0; k < playing.size(); ++k) {
+    const Pose& pose = deformation.keyframes[playing[k]].pose;
+    const bool at_same_place = k < keys_.size() && keys_[k].pose == pose;  // the usual case
+    if (!at_same_place && std::ranges::find(keys_, pose, &Key::pose) == keys_.end()) ++count;
+  }
   return count;
 }
 
@@ -109,9 +118,12 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
   for (const size_t i : playing) {
     const Keyframe& frame = deformation.keyframes[i];
     const auto known = std::ranges::find(keys_, frame.pose, &Key::pose);
-    Key key{frame.time, frame.ease, frame.turns, frame.pose, {}};
+    Key key{frame.time, frame.ease, frame.turns, frame.pose, {}, {}, {}, {}};
     if (known != keys_.end()) {
       key.f = known->f;
+      key.solution = known->solution;
+      key.extremes = known->extremes;
+      key.note = known->note;
     } else {
       try {
         throw_if_stopped(stop);
@@ -120,6 +132,11 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
         SampledMap map =
             prepared->deformer->deform(pose_of(posed_as(deformation, frame.pose)), options);
         key.f = std::move(map.f);
+        if (map.status == SampledMap::Status::certified) key.extremes = map.extremes;
+        if (key.extremes) {
+          key.solution = std::move(map.solution);
+          key.note = std::move(map.note);
+        }
       } catch (const Stopped&) {
         for (Key& found : keys)
           if (std::ranges::find(keys_, found.pose, &Key::pose) == keys_.end())
@@ -141,6 +158,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
   error_ = wrong;
   if (!changed && std::ranges::equal(keys, keys_, same)) return;
   keys_ = std::move(keys);
+  proved_ = keys_.size() > 1 ? prepared->deformer->motion() : nullptr;
   align(deformation);
 }
 
@@ -148,6 +166,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
 void Motion::align(const Deformation& deformation) {
   shapes_.clear();
   slopes_.reset();
+  interval_.reset();
   Inbetween::Shape before;
   for (size_t i = 0; i < keys_.size(); ++i) {
     Key& key = keys_[i];
@@ -175,10 +194,14 @@ const Inbetween::Shape& Motion::shape_at(size_t key) {
       .first->second;
 }
 
+/// Whether smooth motion passes through a key without stopping.
+bool Motion::passes(size_t key) const {
+  return key > 0 && key + 1 < keys_.size() && keys_[key - 1].ease == Ease::smooth &&
+         keys_[key].ease == Ease::smooth;
+}
+
 VectorXc Motion::slopes_at(size_t key) {
-  const bool passes = key > 0 && key + 1 < keys_.size() && keys_[key - 1].ease == Ease::smooth &&
-                      keys_[key].ease == Ease::smooth;
-  if (!passes) return between_->slopes(nullptr, shape_at(key), nullptr, 1, 1);
+  if (!passes(key)) return between_->slopes(nullptr, shape_at(key), nullptr, 1, 1);
   return between_->slopes(&shape_at(key - 1), shape_at(key), &shape_at(key + 1),
                           keys_[key].time - keys_[key - 1].time,
                           keys_[key + 1].time - keys_[key].time);
@@ -259,10 +282,39 @@ void preserve_turns(Deformation& deformation, const Deformation& before, Motion&
   }
 }
 
+const MotionInterval* Motion::interval_from(size_t key) {
+  if (!proved_ || linear_blend_) return nullptr;
+  if (interval_ && interval_->from == key) return interval_->interval.get();
+  std::vector<MotionKey> keys;
+  for (size_t k = key > 0 ? key - 1 : 0; k < std::min(keys_.size(), key + 3); ++k) {
+    const Key& own = keys_[k];
+    keys.push_back({own.solution, own.extremes, &own.pose, &own.f, own.turned, own.time});
+  }
+  const size_t at = key > 0 ? 1 : 0;
+  interval_ = {key, proved_->interval(passes(key) ? &keys[at - 1] : nullptr, keys[at], keys[at + 1],
+                                      passes(key + 1) ? &keys[at + 2] : nullptr,
+                                      keys_[key].ease == Ease::smooth)};
+  return interval_->interval.get();
+}
+
+SampledMap Motion::sampled_at(double time, bool derivatives, bool measures) {
+  const auto [i, u] = position_of(time);
+  if (u > 0)
+    if (const MotionInterval* interval = interval_from(i)) return interval->at(u, measures);
+  SampledMap map = blended_map(between_->mesh(), map_at(time), derivatives);
+  if (const Key& key = keys_[i]; u == 0 && key.extremes) {
+    map.status = SampledMap::Status::certified;
+    map.extremes = key.extremes;
+    map.note = key.note;
+  }
+  return map;
+}
+
 VectorXc Motion::map_at(double time) {
   const auto [i, u] = position_of(time);
   const Key& from = keys_[i];
   if (u == 0) return from.f;
+  if (const MotionInterval* interval = interval_from(i)) return interval->at(u, false).f;
   const Key& to = keys_[i + 1];
   const bool smooth = from.ease == Ease::smooth;
   VectorXc f;

@@ -63,6 +63,10 @@ class Motion {
 
   /// f at the mesh's vertices at a time. Constant before the first key and after the last key.
   VectorXc map_at(double time);
+  /// The map at a time, with derivatives if requested. Between keys, it is certified if the method
+  /// proves its maps and both keys are certified, and otherwise blended triangle by triangle; at
+  /// keys, it has no status. `measures`: sets SampledMap::extremes, too.
+  SampledMap sampled_at(double time, bool derivatives, bool measures = false);
   /// The deformation with its handles in their positions at a time. `map` must be map_at(time).
   /// Between two keyframes, the handles follow the picture around them.
   Deformation deformation_at(const Deformation& deformation, double time, const VectorXc& map);
@@ -73,7 +77,10 @@ class Motion {
     Ease ease = Ease::smooth;
     int turns = 0;
     Pose pose;
-    VectorXc f;           ///< at the mesh's vertices
+    VectorXc f;                                ///< at the mesh's vertices
+    std::shared_ptr<const Solution> solution;  ///< only if the method proves its maps
+    std::optional<Extremes> extremes;
+    std::string note;     ///< of the certified map
     int whole_turns = 0;  ///< whole turns of the key's shape
     double turned = 0;    ///< average rotation in radians
   };
@@ -98,6 +105,8 @@ class Motion {
   const Inbetween::Shape& shape_at(size_t key);
   VectorXc slopes_at(size_t key);
   const Slopes& slopes_from(size_t key);
+  bool passes(size_t key) const;
+  const MotionInterval* interval_from(size_t key);
 
   std::vector<Key> keys_;
   std::shared_ptr<PreparedMap> prepared_;
@@ -110,6 +119,12 @@ class Motion {
   // requested time are cached.
   std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
   std::optional<Slopes> slopes_;
+  std::shared_ptr<const ProvedMotion> proved_;  ///< null if the method proves nothing
+  struct KnownInterval {
+    size_t from = 0;
+    std::shared_ptr<const MotionInterval> interval;  ///< null if the keys are not certified
+  };
+  std::optional<KnownInterval> interval_;
 };
 
 /// Preserves the rotation of the picture after keys were added to `before`. Sets the number of

@@ -25,19 +25,20 @@ double smoothness(const Mesh& mesh, const Points& samples, const SampledMap& map
   return total > 0 ? energy / total * length * length : 0;
 }
 
-double pin_distance(TimedMap& timed, const TimedFrame& frame) {
+/// The distances of pins from their targets.
+VectorXd pin_distances(TimedMap& timed, const TimedFrame& frame) {
   Points pins, targets;
   for (size_t i = 0; i < timed.prepared().rest.pins.size(); ++i)
     if (contains(frame.deformation.rest, timed.prepared().rest.pins[i].position)) {
       pins.push_back(timed.prepared().rest.pins[i].position);
       targets.push_back(frame.deformation.pins[i].pose);
     }
-  if (targets.empty()) return 0;
+  if (targets.empty()) return VectorXd::Zero(1);
   const SampledMap map = timed.at(frame, pins);
-  double sum = 0;
-  for (size_t i = 0; i < targets.size(); ++i)
-    sum += std::norm(map.f[static_cast<Index>(i)] - targets[i]);
-  return std::sqrt(sum / static_cast<double>(targets.size()));
+  VectorXd distances(map.f.size());
+  for (Index i = 0; i < distances.size(); ++i)
+    distances[i] = std::abs(map.f[i] - targets[static_cast<size_t>(i)]);
+  return distances;
 }
 
 }  // namespace
@@ -64,7 +65,9 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   const SampledMap map = timed.on_mesh(frame);
   if (frame.pose) report.pose_milliseconds = now_ms() - start;
   report.method = frame.deformation.method;
-  report.status = frame.pose ? name_of(map.status) : "blended";
+  // Maps that are blended triangle by triangle have no status of their own.
+  report.status =
+      frame.pose || map.status != SampledMap::Status::exact ? name_of(map.status) : "blended";
   report.note = map.note;
   report.proved = map.extremes;
   report.iterations = map.iterations;
@@ -74,10 +77,16 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   report.mesh_triangles = static_cast<int>(mesh.triangles.size());
   report.prepare_milliseconds = prepared.milliseconds;
   report.map = frame.pose ? report_of(mesh, map) : report_of_linear(mesh, map.f);
+  const MapReport linear = frame.pose ? report_of_linear(mesh, map.f) : report.map;
+  report.least_in_triangles = linear.min_sigma;
+  report.most_in_triangles = linear.max_sigma;
   report.folds_visibly = injectivity_of(mesh, map.f).folds();
   const double length = perimeter(outline_of(frame.deformation.rest)) / (2 * kPi);
   report.smoothness_energy = smoothness(mesh, prepared.rest.derivative_samples, map, length);
-  report.pin_rms = pin_distance(timed, frame);
+  report.isometric_energy = isometric_energy_of(mesh, map.f);
+  const VectorXd distances = pin_distances(timed, frame);
+  report.pin_rms = std::sqrt(distances.squaredNorm() / static_cast<double>(distances.size()));
+  report.pin_most = distances.maxCoeff();
   return report;
 }
 
@@ -94,10 +103,16 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
        {"status", report.status},
        {"note", report.note},
        {"iterations", report.iterations},
-       {"energies", {{"smoothness", report.smoothness_energy}, {"pins_rms", report.pin_rms}}},
+       {"energies",
+        {{"smoothness", report.smoothness_energy},
+         {"isometric", report.isometric_energy},
+         {"pins_rms", report.pin_rms},
+         {"pins_most", report.pin_most}}},
        {"max_k", report.map.max_k},
        {"min_sigma", report.map.min_sigma},
        {"max_sigma", report.map.max_sigma},
+       {"triangles",
+        {{"min_sigma", report.least_in_triangles}, {"max_sigma", report.most_in_triangles}}},
        {"zeros", zeros},
        {"turning_number", report.map.turning_number},
        {"simple_boundary", report.map.simple_boundary},
@@ -138,10 +153,11 @@ std::string text_of(const SceneReport& report) {
   if (report.time) text += line("time             %.4g s\n", *report.time);
   text += "method           " + report.method + "\nstatus           " + report.status +
           (report.note.empty() ? "" : ": ") + report.note + "\n";
-  text += line("iterations       %d\n", report.iterations) +
-          line("energies         smoothness %.4g, pins rms %.4g px\n", report.smoothness_energy,
-               report.pin_rms) +
-          line("timings          prepare %.1f ms", report.prepare_milliseconds);
+  text +=
+      line("iterations       %d\n", report.iterations) +
+      line("energies         smoothness %.4g, isometric %.4g, pins rms %.4g px, at most %.4g px\n",
+           report.smoothness_energy, report.isometric_energy, report.pin_rms, report.pin_most) +
+      line("timings          prepare %.1f ms", report.prepare_milliseconds);
   if (report.pose_milliseconds) text += line(", pose %.2f ms", *report.pose_milliseconds);
   text +=
       line("\nmax k            %.4g\nmin sigma        %.4g\nmax Sigma        %.4g\n", map.max_k,

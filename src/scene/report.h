@@ -16,9 +16,12 @@ struct SceneReport {
   double prepare_milliseconds = 0;
   std::optional<double> pose_milliseconds;  ///< with derivatives; none between keyframes
   double smoothness_energy = 0;             ///< mean |f_zz|^2 L^2 over triangles, dimensionless
+  double isometric_energy = 2;              ///< of the triangles; see isometric_energy_of
   double pin_rms = 0;              ///< root mean square distance of pins from their targets, pixels
+  double pin_most = 0;             ///< the largest of these distances
   std::optional<Extremes> proved;  ///< if the map is certified
   MapReport map;
+  double least_in_triangles = 1, most_in_triangles = 1;  ///< stretches of the drawn triangles
   bool folds_visibly = false;  ///< by the editor's criterion, which ignores specks
 };
 

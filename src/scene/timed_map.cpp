@@ -46,16 +46,15 @@ TimedFrame TimedMap::frame(std::optional<double> time) {
     const Deformation posed = posed_as(deformation_, *pose);
     return {posed, pose_of(posed), {}};
   }
-  VectorXc f = motion_.map_at(*time);
-  Deformation posed = motion_.deformation_at(deformation_, *time, f);
-  return {std::move(posed), {}, std::move(f)};
+  SampledMap map = motion_.sampled_at(*time, true, true);
+  if (map.note.empty()) map.note = kBetween;
+  Deformation posed = motion_.deformation_at(deformation_, *time, map.f);
+  return {std::move(posed), {}, std::move(map)};
 }
 
 SampledMap TimedMap::on_mesh(const TimedFrame& frame) const {
   if (frame.pose) return prepared_->deformer->deform(*frame.pose, {true});
-  SampledMap map = blended_map(*prepared_->mesh, frame.between, true);
-  map.note = kBetween;
-  return map;
+  return frame.between;
 }
 
 SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
@@ -69,7 +68,7 @@ SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
     return at_points_->deform(*frame.pose, {true});
   }
   SampledMap map;
-  const MeshPointMap between(prepared_->mesh, frame.between);
+  const MeshPointMap between(prepared_->mesh, frame.between.f);
   const Index count = static_cast<Index>(points.size());
   for (VectorXc* part : {&map.f, &map.fz, &map.fzbar}) part->resize(count);
   for (Index i = 0; i < count; ++i) {
@@ -78,7 +77,8 @@ SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
     map.fz[i] = value.fz;
     map.fzbar[i] = value.fzbar;
   }
-  map.note = kBetween;
+  map.note = frame.between.note;
+  map.status = frame.between.status;
   return map;
 }
 
@@ -87,9 +87,9 @@ std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const TimedFrame& frame) co
   if (frame.pose)
     map = prepared_->deformer->point_map(*frame.pose);
   else
-    map = std::make_unique<MeshPointMap>(prepared_->mesh, frame.between);
+    map = std::make_unique<MeshPointMap>(prepared_->mesh, frame.between.f);
   if (!map) return nullptr;
-  const VectorXc f = frame.pose ? on_mesh(frame).f : frame.between;
+  const VectorXc f = frame.pose ? on_mesh(frame).f : frame.between.f;
   return std::make_unique<Inverse>(std::move(map), deformation_.rest, mesh(), f);
 }
 

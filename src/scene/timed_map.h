@@ -9,12 +9,12 @@
 namespace holomorph {
 
 /// The map at a moment. In the deformation's own pose and at keyframes, the method computes the map
-/// with its guarantees. Between keyframes, the map is linear in each triangle and has no
-/// guarantees.
+/// with its guarantees. Between keyframes, the map is known at the mesh's vertices; it is certified
+/// if the method proves its maps and both keys are certified.
 struct TimedFrame {
   Deformation deformation;   ///< with the handles' positions at that moment
   std::optional<Pose> pose;  ///< none between keyframes
-  VectorXc between;          ///< f at the mesh's vertices, between keyframes only
+  SampledMap between;        ///< at the mesh's vertices, between keyframes only
 };
 
 /// The map of a deformation, prepared once and evaluated at many moments.

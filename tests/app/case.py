@@ -11,6 +11,8 @@ import numpy
 from PIL import Image
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+sys.path.append(os.path.join(SOURCE, "tests/support"))
+from old_samples import old_sample  # noqa: E402
 OUT = os.path.join(os.path.dirname(PROGRAM), "screenshots")
 
 

@@ -12,7 +12,7 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
+from case import PROGRAM, SOURCE, WindowCase, load, old_sample, run_tests  # noqa: E402
 from driver import Editor  # noqa: E402
 
 RED, BLUE, GREEN = (220, 30, 30), (30, 60, 220), (20, 160, 60)
@@ -153,7 +153,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["empty"], "a window that still responds")
 
     def test_keys_are_changed_and_kept(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         home = self.preferences(hints=False)
         with Editor(PROGRAM, [scene], home=home) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")

@@ -12,7 +12,7 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
+from case import PROGRAM, SOURCE, WindowCase, load, old_sample, run_tests  # noqa: E402
 from driver import Editor  # noqa: E402
 
 
@@ -106,7 +106,7 @@ class WindowTest(WindowCase):
                 self.screenshot(editor, "view-" + view)
 
     def test_structure_edits_keep_the_pose(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         with Editor(PROGRAM, [scene]) as editor:
             before = load(scene)
             editor.wait(lambda s: s["cage_points"] == len(before["cage"]["rest"]), "the giraffe")
@@ -154,7 +154,7 @@ class WindowTest(WindowCase):
 
     def test_kill_loses_nothing_and_is_recovered(self):
         home = tempfile.mkdtemp(prefix="holomorph-home-")
-        scene = os.path.join(SOURCE, "assets/gecko.json")
+        scene = old_sample("gecko")
         with Editor(PROGRAM, [scene], home=home) as editor:
             state = editor.wait(lambda s: s["cage_points"] > 0, "the gecko")
             x, y = load(scene)["cage"]["pose"][3][0]
@@ -222,7 +222,7 @@ class WindowTest(WindowCase):
         target = os.path.join(self.work, "out.png")
         with open(target, "w") as file:
             file.write("precious")
-        with Editor(PROGRAM, [os.path.join(SOURCE, "assets/giraffe.json")]) as editor:
+        with Editor(PROGRAM, [old_sample("giraffe")]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
@@ -236,7 +236,7 @@ class WindowTest(WindowCase):
             end = time.time() + 20
             while os.path.getsize(target) < 100 and time.time() < end:
                 time.sleep(0.05)
-            subprocess.run([PROGRAM, "render", os.path.join(SOURCE, "assets/giraffe.json"), "--out",
+            subprocess.run([PROGRAM, "render", old_sample("giraffe"), "--out",
                             os.path.join(self.work, "render.png")], check=True, stdout=subprocess.DEVNULL)
             exported = numpy.asarray(Image.open(target))
             rendered = numpy.asarray(Image.open(os.path.join(self.work, "render.png")))
@@ -251,9 +251,8 @@ class WindowTest(WindowCase):
             self.assertTrue(os.path.exists(target))
 
     def test_a_pin_that_would_fold_the_picture_is_held_back(self):
-        for name in ("octopus.json", "octopus.png"):
-            shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
-        path = os.path.join(self.work, "octopus.json")
+        path = shutil.copy(old_sample("octopus"), self.work)
+        shutil.copy(os.path.join(SOURCE, "assets/octopus.png"), self.work)
         with Editor(PROGRAM, [path]) as editor:
             editor.wait(lambda s: s["cage_points"] == 48, "the octopus")
             pin = load(path)["pins"][4]["pose"]
@@ -305,7 +304,7 @@ class WindowTest(WindowCase):
         subprocess.run([PROGRAM, "new", self.picture, "--out", scene, "--vertices", "12"], check=True, capture_output=True)
         values = load(scene)
         pose = values["cage"]["pose"]
-        pose[0], pose[4] = pose[4], pose[0]
+        pose[1], pose[7] = pose[7], pose[1]
         with open(scene, "w") as file:
             json.dump(values, file)
         with Editor(PROGRAM, [scene]) as editor:
@@ -325,16 +324,27 @@ class WindowTest(WindowCase):
                         "a map without folds", 30)
 
     def test_projections_of_other_methods_are_compared(self):
+        shutil.copy(old_sample("octopus"), self.work)
+        shutil.copy(os.path.join(SOURCE, "assets/octopus.png"), self.work)
+        with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
+            editor.wait(lambda s: s["status"] == "certified", "a map")
+            editor.key("ctrl+shift+p")
+            editor.type("compare meth")
+            editor.key("Return")
+            editor.wait(lambda s: s["compared_rows"] == 6, "all rows", 120)
+            self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
+            self.screenshot(editor, "compared")
+
+    def test_methods_with_pins_are_compared(self):
         for name in ("octopus.json", "octopus.png"):
             shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
         with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
             editor.wait(lambda s: s["status"] == "certified", "a map")
             editor.key("ctrl+shift+p")
-            editor.type("compare proj")
+            editor.type("compare meth")
             editor.key("Return")
-            editor.wait(lambda s: s["compared_rows"] == 6, "all rows", 120)
-            self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
-            self.screenshot(editor, "compared")
+            editor.wait(lambda s: s["compared_rows"] == 5, "all rows", 60)
+            self.screenshot(editor, "compared-pins")
 
     def draw_square_cage(self, editor):
         editor.wait(lambda s: not s["empty"], "the picture")
@@ -721,7 +731,7 @@ class WindowTest(WindowCase):
             self.assertEqual([len(s) for s in fourth["rest"][:2]], [3, 3])
 
     def test_a_number_in_the_inspector_moves_what_is_selected(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             x, y = load(scene)["cage"]["pose"][0][0]
@@ -734,7 +744,7 @@ class WindowTest(WindowCase):
             self.assertEqual(load(path)["cage"]["pose"][0][0], [321.5, y])
 
     def test_unsaved_changes_are_asked_about(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             editor.key("ctrl+a")
@@ -755,7 +765,7 @@ class WindowTest(WindowCase):
     def test_a_dropped_picture_opens_and_asks_about_unsaved_work(self):
         with Editor(PROGRAM, []) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
-            editor.drop(os.path.join(SOURCE, "assets/giraffe.json"), 500, 300)
+            editor.drop(old_sample("giraffe"), 500, 300)
             editor.wait(lambda s: s["cage_points"] > 0, "the dropped scene")
             editor.key("ctrl+a")
             editor.key("Up")
@@ -772,7 +782,7 @@ class WindowTest(WindowCase):
             self.assertGreater(editor.state()["cage_points"], 0, "nothing is lost before the answer")
             editor.key("Return")  # Save
             editor.wait(lambda s: s["cage_points"] == 0 and not s["empty"], "the dropped picture")
-            before = load(os.path.join(SOURCE, "assets/giraffe.json"))["cage"]["pose"]
+            before = load(old_sample("giraffe"))["cage"]["pose"]
             after = load(path)["cage"]["pose"]
             self.assertEqual(round(after[0][0][1] - before[0][0][1]), 2, "both edits were saved")
 
@@ -794,7 +804,7 @@ class WindowTest(WindowCase):
             self.assertLess(most, 300 * 1024)
 
     def test_idle_sleeps(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             time.sleep(1.5)

@@ -10,6 +10,8 @@ import unittest
 from PIL import Image
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+sys.path.append(os.path.join(SOURCE, "tests/support"))
+from old_samples import old_sample  # noqa: E402
 
 
 def run(*words, **options):

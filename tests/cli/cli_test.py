@@ -16,7 +16,7 @@ import jsonschema
 import numpy
 from PIL import Image, ImageOps
 
-from case import PROGRAM, SOURCE, Case, run
+from case import PROGRAM, SOURCE, Case, old_sample, run
 
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
 SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart", "tiger", "fern"]
@@ -105,7 +105,7 @@ class CommandLine(Case):
 
     def test_each_space_of_maps_without_folds_is_certified(self):
         shutil.copy(os.path.join(SOURCE, "assets", "octopus.png"), self.folder)
-        scene = json.load(open(os.path.join(SOURCE, "assets", "octopus.json")))
+        scene = json.load(open(old_sample("octopus")))
         for space in ("nu", "psi", "h"):
             scene["method"]["parameters"] = {"space": space, "pin_weight": 1e4, "reference": "har_arap"}
             jsonschema.validate(scene, SCHEMA)
@@ -126,7 +126,7 @@ class CommandLine(Case):
 
     def test_an_outline_is_met_and_kept_in_the_file(self):
         shutil.copy(os.path.join(SOURCE, "assets", "gecko.png"), self.folder)
-        scene = json.load(open(os.path.join(SOURCE, "assets", "gecko.json")))
+        scene = json.load(open(old_sample("gecko")))
         n = 120
         scene["outline"] = [[400 + 300 * math.cos(2 * math.pi * i / n), 300 + 200 * math.sin(2 * math.pi * i / n)]
                             for i in range(n)]
@@ -417,7 +417,7 @@ class CommandLine(Case):
         scene["method"] = {"id": "bounded"}
         path = self.write("s.json", scene)
         frames = json.loads(self.good("info", path, "--frames", "all", "--json").stdout)
-        self.assertEqual([f["status"] for f in frames], ["certified", "certified", "blended", "blended", "certified"])
+        self.assertEqual([f["status"] for f in frames], ["certified"] * 5)
         self.assertLess(max(f["max_k"] for f in frames[:2]), 1e-6)
         key = json.loads(self.good("info", path, "--time", 0.35, "--json").stdout)
         self.assertEqual((key["status"], key["certified"]), ("certified", True))
@@ -435,6 +435,10 @@ class CommandLine(Case):
         frames = json.loads(self.good("info", self.write("s.json", scene), "--frames", "all", "--json").stdout)
         self.assertEqual([f["status"] for f in frames][:2], ["certified"] * 2)
         self.assertEqual(frames[1]["max_k"], frames[0]["max_k"])
+        self.assertEqual(frames[3]["status"], "certified")
+        self.assertGreater(frames[3]["proved"]["sigma"], 0)
+        scene["method"] = {"id": "harmonic"}  # proves nothing
+        frames = json.loads(self.good("info", self.write("s.json", scene), "--frames", "all", "--json").stdout)
         self.assertEqual(frames[3]["status"], "blended")
 
     def test_what_map_could_not_map_goes_through_inverse(self):
@@ -471,17 +475,17 @@ class CommandLine(Case):
         self.assertFalse(os.path.exists(out))
 
     def test_info(self):
-        result = json.loads(self.good("info", os.path.join(SOURCE, "assets/gecko.json"), "--json").stdout)
+        result = json.loads(self.good("info", old_sample("gecko"), "--json").stdout)
         for key in ("method", "status", "iterations", "energies", "timings", "max_k", "min_sigma", "max_sigma",
                     "zeros", "turning_number", "simple_boundary", "certified"):
             self.assertIn(key, result)
         self.assertEqual(result["method"], "pins")
         self.assertLess(result["energies"]["pins_rms"], 1e-6)
         self.assertAlmostEqual(result["turning_number"], 1, places=2)
-        self.assertIn("turning number", self.good("info", os.path.join(SOURCE, "assets/gecko.json")).stdout)
+        self.assertIn("turning number", self.good("info", old_sample("gecko")).stdout)
 
     def test_exports(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         for kind in ("obj", "svg", "npy", "png"):
             self.good("export", scene, "--format", kind, "--out", self.path("x." + kind))
         positions = numpy.load(self.path("x.npy"))
@@ -497,7 +501,7 @@ class CommandLine(Case):
     # ---- bad input ---------------------------------------------------------------------------
 
     def test_bad_scenes(self):
-        good = json.load(open(os.path.join(SOURCE, "assets/gecko.json")))
+        good = json.load(open(old_sample("gecko")))
         shutil.copy(os.path.join(SOURCE, "assets/gecko.png"), self.folder)
 
         def changed(change):
@@ -531,7 +535,7 @@ class CommandLine(Case):
         self.bad("info", self.write("bad.json", huge), says="5000")
 
     def test_bad_arguments(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         points = self.write("p.csv", "1,2\n3,x\n")
         self.bad("map", scene, "--points", points, says="line 2")
         self.bad("map", scene, "--points", self.path("none.csv"), says="no such file")
@@ -573,7 +577,7 @@ class CommandLine(Case):
         self.assertIn("holomorph new", result.stderr)
 
     def test_inverse_undoes_map(self):
-        scene = os.path.join(SOURCE, "assets/gecko.json")
+        scene = old_sample("gecko")
         loop = numpy.array([segment[0] for segment in json.load(open(scene))["cage"]["rest"]])
         inner = [loop.mean(axis=0) + 0.2 * (p - loop.mean(axis=0)) for p in loop[::5]] + [[338, 654], [840, 184]]
         points = self.write("in.csv", "".join("%r,%r\n" % (float(x), float(y)) for x, y in inner))
@@ -593,7 +597,7 @@ class CommandLine(Case):
         self.assertEqual(len(short), len(inner) + 1)
 
     def test_stmap_and_unwarp(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         self.good("export", scene, "--format", "stmap", "--scale", 0.25, "--out", self.path("st.npy"))
         st = numpy.load(self.path("st.npy"))
         self.assertEqual(st.shape, (275, 225, 2))
@@ -622,6 +626,32 @@ class CommandLine(Case):
         solid = (source[..., 3] == 255) & (back[..., 3] == 255)
         self.assertGreater(solid.mean(), 0.1)
         self.assertLess(numpy.abs(back - source)[solid].mean(), 4)
+
+    def test_cages_are_made_as_closely_as_asked_and_with_holes(self):
+        picture = self.path("ring.png")
+        y, x = numpy.mgrid[0:200, 0:240]
+        away = numpy.hypot(x - 100, y - 100)
+        pixels = numpy.zeros((200, 240, 4), "uint8")
+        pixels[(away < 90) & (away > 40)] = 255
+        pixels[90:110, 215:235] = 255  # another part
+        Image.fromarray(pixels).save(picture)
+        counts = []
+        for detail in (0, 50, 100):
+            out = self.path(f"{detail}.json")
+            said = self.good("new", picture, "--out", out, "--detail", detail).stderr
+            self.assertIn("another part of the picture stays outside", said)
+            scene = json.load(open(out))
+            self.assertEqual((scene["version"], len(scene["cage"]["holes"])), (3, 1))
+            jsonschema.validate(scene, SCHEMA)
+            counts.append(len(scene["cage"]["rest"]))
+        self.assertLess(counts[0], counts[2])
+        self.good("new", picture, "--out", self.path("filled.json"), "--hole-width", 60)
+        self.assertNotIn("holes", json.load(open(self.path("filled.json")))["cage"])
+        for option in ("--detail", "--hole-width"):
+            for wrong in (-1, 101, "nan"):
+                self.bad("new", "--force", picture, "--out", self.path("x.json"), option, wrong, says=option)
+        info = json.loads(self.good("info", self.path("50.json"), "--json").stdout)
+        self.assertTrue(info["locally_injective"])
 
     def test_cages_from_svg(self):
         picture = os.path.join(SOURCE, "assets/gecko.png")
@@ -680,7 +710,7 @@ class CommandLine(Case):
                 self.assertEqual(len(result.stdout.splitlines()), 1)
 
     def test_killing_the_program_while_it_writes_leaves_whole_files(self):
-        scene = os.path.join(SOURCE, "assets/giraffe.json")
+        scene = old_sample("giraffe")
         out = self.path("x.obj")
         self.good("export", scene, "--format", "obj", "--out", out)
         whole = open(out).read()
@@ -747,7 +777,7 @@ class CommandLine(Case):
         self.assertLessEqual(numpy.abs(seen - wanted).max(), 1)
 
     def test_pictures_are_written_in_the_format_of_their_name(self):
-        scene = os.path.join(SOURCE, "assets/gecko.json")
+        scene = old_sample("gecko")
         sizes = set()
         for name, kind in [("a.png", "PNG"), ("a.jpeg", "JPEG"), ("a.webp", "WEBP"), ("a", "PNG")]:
             self.good("render", scene, "--out", self.path(name), "--scale", "0.25")

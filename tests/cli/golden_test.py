@@ -10,6 +10,7 @@ from PIL import Image
 
 from case import PROGRAM, SOURCE, Case
 from golden import Marks
+from old_samples import old_sample
 
 SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart", "tiger", "fern"]
 
@@ -23,22 +24,31 @@ def corner_of(said):
 class GoldenPictures(Case):
     def test_samples_look_like_their_golden_pictures(self):
         for name in SAMPLES:
-            marks = Marks(self, os.path.join(SOURCE, "assets", name + ".json"))
+            scene = os.path.join(SOURCE, "assets", name + ".json")
+            marks = Marks(self, scene)
             for view in ("image", "angle", "area", "stretch", "checker"):
                 if view in ("angle", "checker") and name != "gecko":
                     continue
-                self.compare(f"{name}-{view}", name, marks, view)
+                self.compare(f"{name}-{view}", scene, marks, view)
         # At a time between two keyframes.
-        marks = Marks(self, os.path.join(SOURCE, "assets/fern.json"), "--time", 1.3)
-        self.compare("fern-between", "fern", marks, "image", "--time", 1.3)
+        scene = os.path.join(SOURCE, "assets/fern.json")
+        marks = Marks(self, scene, "--time", 1.3)
+        self.compare("fern-between", scene, marks, "image", "--time", 1.3)
 
-    def compare(self, title, sample, marks, view, *when):
+    def test_samples_of_an_earlier_release_look_as_they_did(self):
+        """The golden pictures are those of that release. They are never drawn again."""
+        for name in ("giraffe", "gecko", "octopus"):
+            scene = old_sample(name)
+            marks = Marks(self, scene)
+            for view in ("image", "area", "stretch"):
+                self.compare(f"old-{name}-{view}", scene, marks, view, renews=False)
+
+    def compare(self, title, scene, marks, view, *when, renews=True):
         """The picture matches its golden picture, which passes the checks of golden.py."""
         out = self.path(title + ".png")
-        scene = os.path.join(SOURCE, "assets", sample + ".json")
         said = self.good("render", scene, "--out", out, "--scale", 0.3, "--view", view, *when).stderr
         golden = os.path.join(SOURCE, "tests/golden", title + ".png")
-        if os.environ.get("HOLOMORPH_UPDATE_GOLDEN"):
+        if renews and os.environ.get("HOLOMORPH_UPDATE_GOLDEN"):
             shutil.copy(out, golden)
         a, b = (numpy.asarray(Image.open(p).convert("RGBA")).astype(int) for p in (out, golden))
         self.assertEqual(a.shape, b.shape, golden)

@@ -5,6 +5,8 @@
 #include "edit/actions/actions.h"
 #include "edit/edits/edits.h"
 #include "support/desk.h"
+#include "support/folder.h"
+#include "system/new_file.h"
 
 using namespace holomorph;
 
@@ -49,6 +51,23 @@ TEST_CASE("A press sets the first pin, and the same drag moves it") {
   REQUIRE(deformation.pins.size() == 1);
   CHECK(std::abs(deformation.pins[0].pose - Complex(550, 600)) < 1e-6);
   CHECK(desk.workspace.document.history().index() == 1);
+}
+
+TEST_CASE("The first pin says how many parts of the picture the cage leaves out") {
+  TestWorkspace desk;
+  Image image(200, 100);
+  for (int r = 20; r < 80; ++r)
+    for (int c = 10; c < 190; ++c)
+      if (c < 100 || (c > 120 && c < 140) || c > 160) image.at(c, r)[3] = 255;
+  const Folder folder;
+  const Path picture = folder.path / "parts.png";
+  write_file(picture, encode_png(image));
+  desk.workspace.open(Document::open(picture));
+  desk.workspace.tools.active = ToolId::pin;
+  desk.click({50, 50});
+  REQUIRE(desk.workspace.shown.deformation().has_cage());
+  REQUIRE(desk.workspace.messages.toasts.size() == 1);
+  CHECK_THAT(desk.workspace.messages.toasts[0].text, Catch::Contains("2 other parts"));
 }
 
 TEST_CASE("A click beside the picture's content makes nothing") {

@@ -48,7 +48,7 @@ class Package(unittest.TestCase):
         scene = os.path.join(self.root, "usr/share/holomorph/assets/gecko.json")
         report = json.loads(subprocess.run([self.program, "info", scene, "--json"], check=True, capture_output=True,
                                            text=True).stdout)
-        self.assertEqual(report["method"], "pins")
+        self.assertEqual(report["method"], "puppet")
 
     def test_the_window_shows_its_own_samples(self):
         # If the package lacked its samples, the program would use those of the source tree. To tell

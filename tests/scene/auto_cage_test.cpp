@@ -8,6 +8,7 @@
 #include "core/maps/distortion.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/mesher.h"
+#include "scene/content_parts.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 #include "system/file.h"
@@ -68,7 +69,7 @@ TEST_CASE("A curved automatic cage contains the largest part, with fewer control
       check_rest_cage(cage);
       CHECK_FALSE(is_straight(cage));
       CHECK(cage.size() <= std::max(2 * vertices, 45));
-      const Points flat = outline_of(cage, 64);
+      const Polygon flat = outline_of(cage, 64);
       CHECK(signed_area(flat) > 0);
       const auto part = largest_part(image);
       int outside = 0;
@@ -139,8 +140,15 @@ Limbs limbs_of(std::mt19937& random, double gap) {
     left += widths[k];
     limbs.gaps.emplace_back();
     const double deep = 0.08 * side;  // the end of a gap may be rounded off
-    for (double at = deep; at < length; at += 1)
-      limbs.gaps.back().push_back(center + turn * Complex(left + gap / 2, -at));
+    for (double at = deep; at < length; at += 1) {
+      // The picture's edge may cut off the limbs; then the gap ends with the shorter one.
+      const auto in_picture = [&](double across_gap) {
+        const Complex z = center + turn * Complex(across_gap, -at);
+        return std::min(z.real(), z.imag()) > 0 && std::max(z.real(), z.imag()) < side;
+      };
+      if (in_picture(left - 1) && in_picture(left + gap + 1))
+        limbs.gaps.back().push_back(center + turn * Complex(left + gap / 2, -at));
+    }
     left += gap;
   }
   return limbs;

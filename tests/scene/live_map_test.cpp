@@ -1,9 +1,10 @@
-// Maps that a worker solves: the newest answer is displayed, drafts improve, and finals are those
-// of a fresh solve.
+// Maps that a worker solves: the newest answer is displayed, drafts improve, and final maps equal
+// those of a fresh solve.
 #include <catch2/catch.hpp>
 
 #include "scene/keyframes.h"
 #include "scene/live_map.h"
+#include "support/pinned_bar.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
@@ -11,17 +12,8 @@ using namespace holomorph;
 
 namespace {
 
-const Points kBar{{0, 0}, {600, 0}, {600, 100}, {0, 100}};
 const MeshOptions kMesh{500};
 const EvalOptions kDraft{.derivatives = false, .draft = true};
-
-Deformation pinned_bar(const std::string& method) {
-  Deformation deformation = with_cage(Deformation{}, kBar);
-  deformation.method = method;
-  for (const Complex z : {Complex(50, 50), Complex(300, 50), Complex(550, 50)})
-    deformation.pins.push_back({z, z, {}, {}});
-  return deformation;
-}
 
 /// The bar with its right end raised.
 Deformation bent(Deformation deformation, double part) {

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "scene/document.h"
@@ -70,7 +71,7 @@ TEST_CASE("Errors in a scene name the file, the JSON pointer and the reason") {
              Contains("scene.json") && Contains("damaged or ends too early, at line"));
   CHECK_THAT(complaint("[]"), Contains("expected an object"));
   CHECK_THAT(complaint("{}"), Contains("not a Holomorph scene"));
-  CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 3")),
+  CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 4")),
              Contains("/version") && Contains("newer"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50]")), Contains("/pins/0/rest"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,\"60\"]")),
@@ -639,4 +640,20 @@ TEST_CASE("Texts from files cannot control a terminal") {
 TEST_CASE("Another program writes here", "[.][cleaner]") {
   if (const char* folder = std::getenv("HOLOMORPH_TEST_FOLDER"))
     write_file(Path(folder) / "written.json", "x");
+}
+
+TEST_CASE("Samples of an earlier release keep their methods, parameters and handles") {
+  for (const std::string name : {"gecko", "giraffe", "octopus"}) {
+    const std::string text = read_file(HOLOMORPH_SOURCE "/tests/data/scenes/" + name + ".json");
+    const auto before = nlohmann::json::parse(text);
+    const Scene scene = scene_from_json(text, name);
+    INFO(name);
+    CHECK(scene.deformation().method == before["method"]["id"].get<std::string>());
+    CHECK(scene.deformation().method != "puppet");
+    const auto after = nlohmann::json::parse(json_of(scene));
+    CHECK(after["method"] == before["method"]);
+    CHECK(after["cage"] == before["cage"]);
+    const auto none = nlohmann::json::array();
+    CHECK(after.value("pins", none) == before.value("pins", none));
+  }
 }

@@ -16,12 +16,19 @@ inline Complex bend(Complex z) {
   return z + 25.0 * std::sin(z.imag() / 60) + kI * (z.real() * 0.12);
 }
 
-/// The edges of the rest cage: straight, straight with a higher degree, or curved.
-enum class Shape { straight, raised, curved };
+/// The edges of the rest cage: straight, straight with a higher degree, or curved. `holes` is a
+/// cage with straight edges and two unequal holes, one of which runs in the wrong direction.
+enum class Shape { straight, raised, curved, holes };
 
 inline Cage cage_of(Shape shape) {
   const Cage straight = polygon_cage(shapes::l_shape());
   if (shape == Shape::straight) return straight;
+  if (shape == Shape::holes) {
+    Cage holed = straight;
+    add_hole(holed, polygon_cage(Points{{160, 15}, {190, 20}, {186, 45}, {166, 40}}).segments);
+    add_hole(holed, polygon_cage(Points{{58, 84}, {66, 112}, {88, 82}}).segments);
+    return holed;
+  }
   Cage cubic = straight;
   for (Points& segment : cubic.segments) segment.resize(3);
   cubic = elevated_to(straight, cubic);

@@ -17,21 +17,28 @@ ImVec2 px(const Workspace& workspace, Complex z) {
 namespace {
 
 /// The points of a line in window px.
-std::vector<ImVec2> window_line(const Workspace& workspace, const Points& points) {
+std::vector<ImVec2> window_line(const Workspace& workspace, std::span<const Complex> points) {
   std::vector<ImVec2> line;
   for (const Complex& z : points) line.push_back(px(workspace, z));
   return line;
 }
 
+/// Calls draw with each loop of a polygon, in window px.
+template <class Draw>
+void draw_loops(const Workspace& workspace, PolygonView polygon, Draw draw) {
+  for (Index l = 0; l < polygon.loops().count(); ++l) draw(window_line(workspace, polygon.loop(l)));
+}
+
 void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
                const OverlayStyle& style) {
-  const std::vector<ImVec2> line = window_line(workspace, outline_of(cage, 24));
-  if (line.size() < 2) return;
-  if (workspace.mode == EditMode::pose) return draw_line(list, line, true, color, style);
-  const float width = static_cast<float>(style.scale);
-  list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline,
-                   ImDrawFlags_Closed, 3.5f * width);
-  draw_dashes(list, line, color, style);
+  draw_loops(workspace, outline_of(cage, 24), [&](const std::vector<ImVec2>& line) {
+    if (line.size() < 2) return;
+    if (workspace.mode == EditMode::pose) return draw_line(list, line, true, color, style);
+    const float width = static_cast<float>(style.scale);
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline,
+                     ImDrawFlags_Closed, 3.5f * width);
+    draw_dashes(list, line, color, style);
+  });
 }
 
 /// Draws lines from each vertex to its tangent handles. For segments whose degree is not 3, draws
@@ -219,21 +226,23 @@ ImU32 faint(ImU32 color) {
 }
 
 /// The edge of the posed picture; empty before the first map.
-Points edge_of(const Workspace& workspace) {
+Polygon edge_of(const Workspace& workspace) {
   const LiveMap& map = workspace.map();
-  Points edge;
-  if (map.has_map())
-    for (const int v : map.prepared()->mesh->boundary) edge.push_back(map.map().f[v]);
+  if (!map.has_map()) return {};
+  const Mesh& mesh = *map.prepared()->mesh;
+  Polygon edge{{}, mesh.holes};
+  for (const int v : mesh.boundary) edge.points.push_back(map.map().f[v]);
   return edge;
 }
 
-void draw_faint_cage(ImDrawList& list, const Workspace& workspace, const Points& cage, ImU32 color,
+void draw_faint_cage(ImDrawList& list, const Workspace& workspace, PolygonView cage, ImU32 color,
                      const OverlayStyle& style) {
-  const std::vector<ImVec2> line = window_line(workspace, cage);
-  const float s = static_cast<float>(style.scale);
-  const int count = static_cast<int>(line.size());
-  list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 70), ImDrawFlags_Closed, 2.6f * s);
-  list.AddPolyline(line.data(), count, faint(color), ImDrawFlags_Closed, 1.3f * s);
+  draw_loops(workspace, cage, [&](const std::vector<ImVec2>& line) {
+    const float s = static_cast<float>(style.scale);
+    const int count = static_cast<int>(line.size());
+    list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 70), ImDrawFlags_Closed, 2.6f * s);
+    list.AddPolyline(line.data(), count, faint(color), ImDrawFlags_Closed, 1.3f * s);
+  });
 }
 
 /// Draws the cage with its tangents, the cage that the map really has, and the outline.
@@ -247,7 +256,9 @@ void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
   else if (deformation.has_cage())
     draw_cage(list, workspace, cage_of(deformation, workspace.mode), look.color, style);
   if (const auto solved = look.faint ? solved_cage(workspace) : std::nullopt) {
-    draw_line(list, window_line(workspace, outline_of(*solved, 24)), true, style.colors.pin, style);
+    draw_loops(workspace, outline_of(*solved, 24), [&](const std::vector<ImVec2>& line) {
+      draw_line(list, line, true, style.colors.pin, style);
+    });
     for (const Complex& z : controls_of(*solved))
       list.AddCircleFilled(px(workspace, z), 3 * static_cast<float>(style.scale), style.colors.pin);
   }
@@ -316,6 +327,10 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
     draw_curves(list, workspace, look, style);
     draw_map_marks(list, workspace, style);
     draw_handles(list, workspace, gesture, look, style);
+  } else if (workspace.display.show_cage && gesture.in_cage) {
+    const Deformation& deformation = workspace.shown.deformation();
+    draw_faint_cage(list, workspace, outline_of(cage_of(deformation, workspace.mode), 24),
+                    style.colors.rest, style);
   }
   if (gesture.shows_dabs) draw_stiffness(list, workspace, gesture, style);
   if (workspace.display.show_cage) draw_influence(list, workspace, gesture, style);

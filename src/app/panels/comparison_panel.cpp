@@ -2,7 +2,9 @@
 #include "app/panels/comparison_panel.h"
 
 #include "app/panels/panels.h"
+#include "core/compared/isometric_comparison.h"
 #include "core/mesh/mesher.h"
+#include "edit/actions/groups.h"
 
 namespace holomorph {
 namespace {
@@ -41,14 +43,15 @@ void ComparisonPanel::work(const Deformation& deformation, std::stop_token stop)
       const std::lock_guard lock(mutex_);
       mesh_ = rest.mesh;
     }
-    compare(
-        rest, pose_of(deformation),
-        [&](const ComparedMap& row) {
-          const std::lock_guard lock(mutex_);
-          rows_.push_back(row);
-          wake_();
-        },
-        stop);
+    const auto add = [&](const ComparedMap& row) {
+      const std::lock_guard lock(mutex_);
+      rows_.push_back(row);
+      wake_();
+    };
+    if (method_named(deformation.method).follows_others)
+      compare(rest, pose_of(deformation), add, stop);
+    else
+      compare_isometric(rest, pose_of(deformation), add, stop);
   } catch (const std::exception& error) {
     failure = error.what();
   }
@@ -68,22 +71,24 @@ bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle
   const std::lock_guard lock(mutex_);
   const float s = static_cast<float>(style.scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float width = std::min(690 * s, display.x - 20);
+  const float width = std::min(770 * s, display.x - 20);
   const double middle = workspace.display.viewport.left + workspace.display.viewport.width / 2;
   const float left =
       std::clamp(static_cast<float>(middle) - width / 2, 10.0f, display.x - width - 10);
   ImGui::SetNextWindowPos({left, display.y - 50 * s}, ImGuiCond_Appearing, {0, 1});
   ImGui::SetNextWindowSize({width, 10 * ImGui::GetTextLineHeightWithSpacing() + 24 * s},
                            ImGuiCond_Appearing);
-  ImGui::Begin("Compare projections", &open_,
+  ImGui::Begin("Compare methods", &open_,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   draw_table(style.scale);
   if (!failure_.empty()) ImGui::TextWrapped("%s", failure_.c_str());
-  ImGui::TextDisabled("%s", computing_ ? "Computing. Some methods take several seconds..."
-                                       : "Click a row to see its map over the picture.");
+  ImGui::TextDisabled(
+      "%s", computing_ ? "Computing. Some methods take several seconds..."
+                       : "Click a row to see its map over the picture. The figures are those of a "
+                         "coarse mesh.");
   bool again = false;
   if (workspace.shown.deformation() != *deformation_) {
-    ImGui::BeginDisabled(!method_named(workspace.shown.deformation().method).follows_others);
+    ImGui::BeginDisabled(!can_be_compared(workspace.shown.deformation()));
     again = ImGui::Button("Compare again");
     ImGui::EndDisabled();
     ImGui::SameLine();
@@ -96,22 +101,29 @@ bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle
 
 void ComparisonPanel::draw_table(double scale) {
   const float s = static_cast<float>(scale);
-  if (!ImGui::BeginTable("rows", 7, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
+  // Projections start with the map that they follow. It needs no solve, so it has no time.
+  const bool pinned = !rows_.empty() && rows_[0].energy;
+  const int columns = pinned ? 8 : 7;
+  if (!ImGui::BeginTable("rows", columns, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
+    return;
   ImGui::TableSetupColumn("Map", ImGuiTableColumnFlags_WidthFixed, 190 * s);
-  static constexpr const char* kColumns[][2] = {
+  const char* const kColumns[][2] = {
       {"Map", "Click a row to see its map over the picture"},
       {"Shear", "The largest shear: 0 keeps all angles, 1 flattens a circle to a line"},
       {"Stretch", "The largest factor by which a length grows or shrinks"},
       {"Flipped", "Number of flipped triangles"},
-      {"Turns",
-       "How many times the outline turns: 1 unless the picture overlaps itself at a point"},
+      {pinned ? "Energy" : "Turns",
+       pinned
+           ? "Half the sum of squared stretches and of their inverses, on average: 2 if rigid"
+           : "How many times the outline turns: 1 unless the picture overlaps itself at a point"},
       {"Time", "Time of the solve in milliseconds, without preparation"},
-      {"Iterations", "'not settled': stopped at the iteration limit"}};
-  for (int c = 1; c < 7; ++c)
+      {"Iterations", "'not settled': stopped at the iteration limit"},
+      {"Pins", "The largest distance of a pin from its target, in pixels"}};
+  for (int c = 1; c < columns; ++c)
     ImGui::TableSetupColumn(kColumns[c][0], ImGuiTableColumnFlags_WidthFixed,
-                            (c < 6 ? 64 : 110) * s);
+                            (c == 6 ? 110 : 64) * s);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-  for (int c = 0; c < 7; ++c) {
+  for (int c = 0; c < columns; ++c) {
     ImGui::TableNextColumn();
     ImGui::TableHeader(kColumns[c][0]);
     tooltip(kColumns[c][1]);
@@ -127,11 +139,12 @@ void ComparisonPanel::draw_table(double scale) {
     cell("%.3f", row.max_k);
     cell("%.3f", row.max_tau);
     cell("%.0f", row.flipped_triangles);
-    cell("%.2f", row.turning_number);
-    if (i == 0) continue;  // the reference map needs no solve, so it has no time
+    cell(pinned ? "%.3f" : "%.2f", pinned ? row.energy.value_or(0) : row.turning_number);
+    if (i == 0 && !pinned) continue;
     cell("%.0f", row.milliseconds);
     ImGui::TableNextColumn();
     ImGui::Text(row.settled ? "%d" : "%d, not settled", row.iterations);
+    if (pinned) cell("%.2f", row.miss);
   }
   ImGui::EndTable();
 }

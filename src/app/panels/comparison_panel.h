@@ -1,4 +1,4 @@
-// The window that compares Holomorph's projection with other methods, one row per map.
+// The window that compares Holomorph's maps with those of other methods, one row per map.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ class ComparisonPanel {
   /// `wake` is called on the worker thread after each row.
   explicit ComparisonPanel(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Opens the window and starts the comparison. The deformation's method must be `bounded`.
+  /// Opens the window and starts the comparison. See can_be_compared().
   void start(const Deformation& deformation);
   /// The number of finished rows.
   int rows() const {

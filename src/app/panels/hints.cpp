@@ -25,8 +25,11 @@ bool draw_hints(const Workspace& workspace, bool kept, double scale) {
       {caged, "Make a cage",
        "Make it from the picture, or draw it with " + workspace.actions.key_of("tool.pen")},
       {bent, "Bend the picture",
-       "Drag cage points with " + workspace.actions.key_of("tool.select") + "; " +
-           workspace.actions.key_of("tool.pin") + " sets and drags pins"},
+       has_cage_handles(deformation, EditMode::pose)
+           ? "Drag cage points with " + workspace.actions.key_of("tool.select") + "; " +
+                 workspace.actions.key_of("tool.pin") + " sets and drags pins"
+           : "Set pins where the picture should stay, with " +
+                 workspace.actions.key_of("tool.pin") + ", then drag a pin"},
       {bent && kept, "Save or export",
        workspace.actions.key_of("file.save") + " saves the scene, " +
            workspace.actions.key_of("file.export") + " exports a picture"}};

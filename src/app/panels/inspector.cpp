@@ -110,13 +110,17 @@ void cage_section(Workspace& workspace) {
   const Deformation& deformation = workspace.shown.deformation();
   if (deformation.has_cage())
     ImGui::Text(
-        "%d cage points, %s, %s", static_cast<int>(deformation.rest.size()),
+        "%d cage points%s, %s, %s", static_cast<int>(deformation.rest.size()),
+        deformation.rest.holes.empty()
+            ? ""
+            : (", " + counted(deformation.rest.holes.size(), "hole", true)).c_str(),
         counted(deformation.pins.size(), "pin", method_named(deformation.method).uses_pins).c_str(),
         counted(deformation.strokes.size(), "stroke", method_named(deformation.method).uses_strokes)
             .c_str());
   else
     ImGui::TextDisabled("No cage yet.");
   detail_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
+  hole_slider(workspace, ImGui::GetContentRegionAvail().x * 0.55f);
   ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
   const Action& action = workspace.actions.named("cage.from_picture");
   ImGui::BeginDisabled(!action.enabled(workspace));

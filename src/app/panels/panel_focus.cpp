@@ -16,7 +16,7 @@ namespace {
 /// Names of windows, in the order in which F6 visits them.
 constexpr const char* kPanels[] = {"Welcome",   "Cage offer",  "Missing picture",
                                    "Inspector", "Timeline",    "Surface",
-                                   "Toolbar",   "First steps", "Compare projections"};
+                                   "Toolbar",   "First steps", "Compare methods"};
 constexpr const char* kMenuBar = "##MainMenuBar";  // ImGui's name
 
 ImGuiWindow* shown(const char* name) {

@@ -127,6 +127,17 @@ void detail_slider(Workspace& workspace, float width) {
       "rectangle.");
 }
 
+void hole_slider(Workspace& workspace, float width) {
+  float smallest = static_cast<float>(workspace.tools.auto_cage.hole_width);
+  ImGui::SetNextItemWidth(width);
+  if (ImGui::SliderFloat("Smallest hole", &smallest, 0, 100, "%.1f %%",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    workspace.tools.auto_cage.hole_width = smallest;
+  tooltip(
+      "Empty regions inside the picture become holes of the next cage if they are wider than this, "
+      "in percent of the picture's size. 100 % fills all of them.");
+}
+
 PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelFocus* focus) {
   PanelAnswer answer;
   if (!ImGui::BeginMainMenuBar()) return answer;
@@ -145,6 +156,7 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, PanelF
     if (std::string_view(name) == "Cage") {
       ImGui::Separator();
       detail_slider(workspace, 160);
+      hole_slider(workspace, 160);
       ImGui::Checkbox("Curved", &workspace.tools.auto_cage.curved);
     }
     if (escape) ImGui::CloseCurrentPopup();

@@ -97,6 +97,8 @@ bool begin_combo(const char* label, const char* preview);
 
 /// Draws the slider that sets how closely the next cage made from the picture follows it.
 void detail_slider(Workspace& workspace, float width);
+/// Draws the slider that sets which empty regions become holes of the next cage.
+void hole_slider(Workspace& workspace, float width);
 
 /// If the picture has no cage, draws a card that offers ways to make one. Returns the height of the
 /// card at the bottom of the canvas in px, or 0 if no card was drawn.

@@ -37,6 +37,11 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, double scal
       ImGui::SameLine();
       if (ImGui::SmallButton("Show me")) workspace.display.viewport.center = *where;
     }
+    const Deformation& deformation = workspace.shown.deformation();
+    if (!deformation.rest.holes.empty() && !method_named(deformation.method).allows_holes) {
+      ImGui::SameLine();
+      if (ImGui::SmallButton("Fill holes")) run("cage.fill", workspace);
+    }
   } else {
     hint = status.hint;
     const auto state = map.map().status;

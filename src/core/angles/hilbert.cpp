@@ -5,8 +5,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "core/arithmetic.h"
 #include "core/cauchy/cauchy_array.h"
 #include "core/cauchy/quadrature.h"
+#include "core/geometry/deepest_point.h"
 #include "core/solvers/dense.h"
 
 namespace holomorph {
@@ -19,35 +21,28 @@ constexpr double kHighestPower = 3.2, kFlatTurn = 8 * kPi / 180;
 constexpr size_t kMaxPowers = 6;
 
 /// The length of a ray up to its next intersection with the polygon, or infinity if there is none.
-double free_length(const Points& polygon, Complex from, Complex direction) {
+double free_length(PolygonView polygon, Complex from, Complex direction) {
   double nearest = INFINITY;
-  const double least = 1e-9 * box_of(polygon).diagonal();
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const Complex a = polygon[i] - from, b = polygon[(i + 1) % polygon.size()] - from;
+  const double least = 1e-9 * box_of(polygon.points()).diagonal();
+  polygon.for_each_edge([&](Index, Complex start, Complex end) {
+    const Complex a = start - from, b = end - from;
     const double side_a = cross(direction, a), side_b = cross(direction, b);
-    if ((side_a > 0) == (side_b > 0)) continue;
+    if ((side_a > 0) == (side_b > 0)) return;
     const double along = dot(direction, a + side_a / (side_a - side_b) * (b - a));
     if (along > least) nearest = std::min(nearest, along);
-  }
+  });
   return nearest;
-}
-
-double distance_to(const Points& polygon, Complex z) {
-  double least = INFINITY;
-  for (size_t i = 0; i < polygon.size(); ++i)
-    least = std::min(least,
-                     nearest_on_segment(polygon[i], polygon[(i + 1) % polygon.size()], z).distance);
-  return least;
 }
 
 /// A point outside the polygon on the bisector at a vertex, as far from the vertex as the rest of
 /// the boundary allows.
-Complex tip_of(const Points& polygon, Complex at, Complex outwards, double angle) {
+Complex tip_of(PolygonView polygon, Complex at, Complex outwards, double angle) {
   const double opening = std::sin(std::min(kPi - angle / 2, kPi / 2));
   double length =
-      0.7 * std::min(free_length(polygon, at, outwards), 2 * box_of(polygon).diagonal());
+      0.7 * std::min(free_length(polygon, at, outwards), 2 * box_of(polygon.points()).diagonal());
   for (int shorter = 0; shorter < 60; ++shorter, length *= 0.8)
-    if (distance_to(polygon, at + length * outwards) >= 0.6 * length * opening) break;
+    if (nearest_on_polygon(polygon, at + length * outwards).distance >= 0.6 * length * opening)
+      break;
   return at + length * outwards;
 }
 
@@ -138,11 +133,9 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
   set_up_vertices();
   correction_weights_ =
       (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
-  const auto bends = [&](Index vertex) {
-    return std::abs(angle(vertex % cage_.size()) - kPi) > kFlatTurn;
-  };
+  const auto bends = [&](Index vertex) { return std::abs(angle(vertex) - kPi) > kFlatTurn; };
   for (Index e = 0; e < cage_.size(); ++e) {
-    if (bends(e) || bends(e + 1) || cage_.degree(e) > 1)
+    if (bends(e) || bends(cage_.next(e)) || cage_.degree(e) > 1)
       pieces_.insert(pieces_.end(), {{e, 0, 0.5}, {e, 0.5, 1}});
     else
       pieces_.push_back({e, 0, 1});
@@ -156,10 +149,16 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
 
 void HilbertCoordinates::set_up_vertices() {
   const Index n = cage_.size();
-  const Points outline = flattened(cage_).points;
+  const FlatCage outline = flattened(cage_);
+  const PolygonView loops = outline;
+  for (Index l = 1; l < loops.loops().count(); ++l) {
+    const auto hole = loops.loop(l);
+    hole_centers_.push_back(deepest_point(Polyline({hole.begin(), hole.end()}, true)));
+  }
+  size_ = box_of(outline).diagonal();
   log_coefficients_ = MatrixXc::Zero(n, parts_.jumps.cols());
   for (Index j = 0; j < n; ++j) {
-    const Points before = cage_.controls((j + n - 1) % n), after = cage_.controls(j);
+    const Points before = cage_.controls(cage_.before(j)), after = cage_.controls(j);
     const Complex out = after[1] - after[0], in = before.back() - before[before.size() - 2];
     Vertex vertex{after[0], 0, std::arg(-in / out), {}};
     if (vertex.angle <= 0) vertex.angle += 2 * kPi;
@@ -193,6 +192,8 @@ std::vector<double> HilbertCoordinates::solve() {
   std::vector<BoundaryPoint> samples, on_cage;
   for (size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
+    if (piece.from == 0 && std::ranges::binary_search(cage_.holes, piece.segment))
+      boundary_.holes.push_back(boundary_.size());
     Points controls = part_of(cage_.controls(piece.segment), piece.from, piece.to);
     controls = elevated(controls, std::max(kDegree, static_cast<int>(controls.size()) - 1));
     controls.pop_back();
@@ -216,6 +217,7 @@ std::vector<double> HilbertCoordinates::solve() {
 
   MatrixXd rows(basis.rows(), 2 * basis.cols());
   rows << basis.real(), -basis.imag();
+  rows.rightCols(static_cast<Index>(hole_centers_.size())).setZero();  // not single-valued
   const VectorXd norms = rows.colwise().norm().cwiseMax(1e-300);
   rows *= norms.cwiseInverse().asDiagonal();
   MatrixXd gram = MatrixXd::Zero(rows.cols(), rows.cols());
@@ -266,7 +268,8 @@ MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) c
   const MatrixXc cauchy = as_complex(planar_coordinates<double>(boundary_, points, order));
   Index column = cauchy.cols(), powers = 0;
   for (const Vertex& vertex : vertices_) powers += static_cast<Index>(vertex.powers.size());
-  MatrixXc basis(cauchy.rows(), cauchy.cols() + powers);
+  const Index holes = static_cast<Index>(hole_centers_.size());
+  MatrixXc basis(cauchy.rows(), cauchy.cols() + powers + holes);
   basis.leftCols(cauchy.cols()) = cauchy;
   for (const Vertex& vertex : vertices_) {
     for (size_t i = 0; i < points.size() && !vertex.powers.empty(); ++i) {
@@ -280,6 +283,13 @@ MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) c
       }
     }
     column += static_cast<Index>(vertex.powers.size());
+  }
+  for (const Complex& center : hole_centers_) {
+    for (size_t i = 0; i < points.size(); ++i) {
+      const Complex z = points[i] - center;
+      basis(static_cast<Index>(i), column) = order == 0 ? std::log(z / size_) : inverse(z);
+    }
+    ++column;
   }
   return basis;
 }

@@ -3,7 +3,8 @@
 //
 // At each vertex, a logarithm reproduces the jump, and powers reproduce the other singularities
 // that its angle causes. Cubic Cauchy coordinates represent the smooth remainder. The boundary is
-// subdivided where they are not accurate enough.
+// subdivided where they are not accurate enough. Each hole has a logarithm, ln(z - center) with a
+// real coefficient; only its real part is single-valued.
 #pragma once
 
 #include <functional>
@@ -27,7 +28,7 @@ RealParts corner_values(const Cage& cage, const std::vector<Index>& corners);
 
 class HilbertCoordinates {
  public:
-  /// `cage` must be counter-clockwise and pass check_rest_cage. The boundary is subdivided, at most
+  /// `cage` must be oriented and pass check_rest_cage. The boundary is subdivided, at most
   /// seven times, until the error of every real part is at most `tolerance` at the fitted points.
   /// Between these points, the error can be about twice as large. Cost: cubic in the number of
   /// vertices; 5 ms for a dozen, 200 ms for fifty.
@@ -45,7 +46,8 @@ class HilbertCoordinates {
   /// Row i holds the coordinates at points[i] (order 0), or their derivatives (order 1). Points
   /// must be inside the cage or on its boundary. At a vertex of the cage, derivatives are not
   /// finite, and neither are coordinates whose real parts jump there. The coordinates are
-  /// determined up to imaginary constants. Their sums with the weights `linear` are 1, z and -i z
+  /// determined up to imaginary constants. In cages with holes, only their real parts and their
+  /// derivatives are single-valued. Their sums with the weights `linear` are 1, z and -i z
   /// up to rounding. Cost per point: a row of Cauchy coordinates, and `unknowns` multiplications
   /// per column.
   MatrixXc at(std::span<const Complex> points, int order = 0) const;
@@ -70,7 +72,7 @@ class HilbertCoordinates {
   Complex logarithmic_slope(const Vertex& vertex, Complex z) const;
   /// The logarithms that produce the jumps, one column per vertex.
   MatrixXc logarithms(std::span<const Complex> points, int order) const;
-  /// The Cauchy coordinates and the powers, one column per unknown.
+  /// The Cauchy coordinates, the powers and the logarithms of holes, one column per unknown.
   MatrixXc basis(std::span<const Complex> points, int order) const;
 
   Cage cage_;
@@ -78,6 +80,8 @@ class HilbertCoordinates {
   MatrixXd correction_weights_;  ///< weights that make the sums with `linear` exact
   MatrixXc log_coefficients_;    ///< coefficients of the logarithms, a column per coordinate
   std::vector<Vertex> vertices_;
+  Points hole_centers_;
+  double size_ = 1;  ///< of the cage
   std::vector<Piece> pieces_;
   Cage boundary_;          ///< the pieces as segments of degree 3 or more
   MatrixXc coefficients_;  ///< coefficients of the basis, a column per coordinate

@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t kInnerSamples = 300;
 /// The distance is measured at every second sample. The bounds hold at all samples.
-constexpr size_t kFitStride = 2;
+constexpr Index kFitStride = 2;
 
 }  // namespace
 
@@ -35,7 +35,12 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
 
 void ReferenceSampler::set_up_points(const Mesh& mesh, const BoundaryBasis& basis) {
   const Points inset = basis.inset(kInset);
-  for (size_t i = 0; i < inset.size(); i += kFitStride) points_.boundary.push_back(inset[i]);
+  const Loops loops = basis.sample_loops();
+  for (Index l = 0; l < loops.count(); ++l) {
+    if (l > 0) points_.holes.push_back(static_cast<Index>(points_.boundary.size()));
+    for (Index i = loops.first(l); i < loops.end(l); i += kFitStride)
+      points_.boundary.push_back(inset[static_cast<size_t>(i)]);
+  }
   const std::vector<char> outer = boundary_marks(mesh);
   std::vector<int> inner;
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -75,15 +80,15 @@ BoundedReference ReferenceSampler::reference(Points& zeros) const {
   const VectorXc& gamma = method_.harmonic ? fz : fitted;
   std::vector<Zero> found;
   zeros.clear();
-  if (winding_around_zero(gamma) != 0) {
+  const PolygonView boundary(points_.boundary, points_.holes);
+  if (winds_around_zero(boundary, gamma)) {
     found = zeros_of(*mesh_, on_mesh_.function(basis_.coefficients(unknowns)));
     // Drop zeros between the loop of samples and the boundary.
-    std::erase_if(found, [&](const Zero& zero) {
-      return winding_number(points_.boundary, zero.position) == 0;
-    });
+    std::erase_if(found,
+                  [&](const Zero& zero) { return winding_number(boundary, zero.position) == 0; });
     for (const Zero& zero : found) zeros.push_back(zero.position);
   }
-  const VectorXd theta = boundary_argument(points_.boundary, gamma, found);
+  const VectorXd theta = boundary_argument(boundary, gamma, found);
   BoundedReference target;
   target.log_fz.resize(m);
   const double least = 1e-6 * fz.cwiseAbs().maxCoeff();

@@ -29,7 +29,7 @@ class ReferenceSampler {
   bool uses_pins() const { return method_.uses_pins; }
 
   /// Samples the map of a pose and its derivatives. A draft may continue from an earlier solution
-  /// of the method. Throws Error when the method does or when the map is not finite.
+  /// of the method. Throws Error if the method does, or if the map is not finite.
   void deform(const Pose& pose, EvalOptions options, const Solution* from);
   /// The method's solution for the sampled map.
   const std::shared_ptr<const Solution>& solution() const { return map_.solution; }

@@ -13,7 +13,7 @@ BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
       certifier_(*basis_) {
   settings.bounds.check_usable();
   const Bounds tight = settings.bounds.tightened(kTightening);
-  const Index n = basis_->size();
+  const Index n = basis_->unknowns();
   const bool conformal = settings.bounds.k == 0;
   system_.re.resize(conformal ? 0 : 2 * n, 0);
   append_samples(basis_->at_samples(), system_);
@@ -55,7 +55,7 @@ void BoundedSpace::append_samples(const MatrixXc& whitened, ConeSystem& system) 
 
 ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
   const MatrixXc& rows = distance_.boundary().rows();
-  const Index n = basis_->size(), m = rows.rows();
+  const Index n = basis_->unknowns(), m = rows.rows();
   check(reference.log_fz.size() == m, "bounded reference: one value for each sample");
   ConeTarget target;
   target.linear = VectorXd::Zero(system_.unknowns());
@@ -91,15 +91,15 @@ ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
 
 VectorXd BoundedSpace::unconstrained(const BoundedReference& reference) const {
   VectorXd x(system_.unknowns());
-  const Index n = basis_->size();
+  const Index n = basis_->unknowns();
   x.head(2 * n) = stacked(distance_.boundary().unknowns(reference.log_fz));
   if (system_.re.rows() > 0) x.tail(2 * n) = stacked(distance_.boundary().unknowns(reference.nu));
   return x;
 }
 
 LogMap BoundedSpace::map_of(const VectorXd& x) const {
-  const Index n = basis_->size();
-  VectorXc nu = VectorXc::Zero(n);
+  const Index n = basis_->unknowns();
+  VectorXc nu = VectorXc::Zero(basis_->size());
   if (system_.re.rows() > 0) nu = basis_->coefficients(complex_of(x.tail(2 * n)));
   return {basis_->coefficients(complex_of(x.head(2 * n))), std::move(nu)};
 }

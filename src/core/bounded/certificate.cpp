@@ -60,12 +60,12 @@ struct VertexInfluence {
   VectorXd near, nearer;  ///< with the moduli of the jumps, bound |F''| and |F'''| on the piece
 };
 
-VertexInfluence influence_of(const Points& polygon, const BoundaryPiece& piece) {
-  const Index n = static_cast<Index>(polygon.size());
+VertexInfluence influence_of(PolygonView polygon, const BoundaryPiece& piece) {
+  const Index n = polygon.size();
   VertexInfluence influence{VectorXc(n), VectorXd(n), VectorXd(n)};
   const Complex middle = 0.5 * (piece.start + piece.end);
   for (Index j = 0; j < n; ++j) {
-    const Complex z = polygon[static_cast<size_t>(j)];
+    const Complex z = polygon[j];
     influence.second[j] = inverse(2 * kPi * kI * (z - middle));
     // The piece stays within bend / 8 of its chord.
     const double gap =
@@ -84,15 +84,15 @@ double reach_of(const BoundaryPiece& piece) {
 }  // namespace
 
 Certifier::Function Certifier::function_of(const VectorXc& a) const {
-  const Points& z = basis_.polygon();
+  const PolygonView z = basis_.polygon();
+  const Loops loops = z.loops();
   const Index n = a.size();
   Function f{a, VectorXc(n), VectorXc(n), VectorXd(n)};
   for (Index j = 0; j < n; ++j) {
-    const Index next = (j + 1) % n;
-    f.slopes[j] =
-        quotient(a[next] - a[j], z[static_cast<size_t>(next)] - z[static_cast<size_t>(j)]);
+    const Index next = loops.next(j);
+    f.slopes[j] = quotient(a[next] - a[j], z[next] - z[j]);
   }
-  for (Index j = 0; j < n; ++j) f.jumps[j] = f.slopes[j] - f.slopes[(j + n - 1) % n];
+  for (Index j = 0; j < n; ++j) f.jumps[j] = f.slopes[j] - f.slopes[loops.before(j)];
   f.moduli = f.jumps.cwiseAbs();
   return f;
 }
@@ -116,18 +116,14 @@ Certifier::Certifier(const BoundaryBasis& basis)
 // 2 pi i F = sum of (a_e + (z - z_e) s) L + a_{e+1} - a_e, and the terms without L cancel in the
 // sum.
 Certifier::Values Certifier::at(Complex z, const Function& l, const Function& w) const {
-  const Points& polygon = basis_.polygon();
-  const size_t n = polygon.size();
-  Complex sum_l = 0, sum_w = 0, p = polygon[0] - z;
-  for (size_t e = 0; e < n; ++e) {
-    const Complex q = polygon[(e + 1) % n] - z;
+  Complex sum_l = 0, sum_w = 0;
+  PolygonView(basis_.polygon()).for_each_edge([&](Index i, Complex a, Complex b) {
+    const Complex p = a - z, q = b - z;
     const Complex log(0.5 * std::log(std::norm(q) / std::norm(p)),
                       std::atan2(cross(p, q), dot(p, q)));
-    const Index i = static_cast<Index>(e);
     sum_l += times(l.values[i] - times(p, l.slopes[i]), log);
     sum_w += times(w.values[i] - times(p, w.slopes[i]), log);
-    p = q;
-  }
+  });
   const Complex factor = inverse(2 * kPi * kI);
   return {times(sum_l, factor), times(sum_w, factor)};
 }
@@ -159,9 +155,10 @@ std::vector<Certifier::Leaf> Certifier::leaves_of(const LogMap& map, const Funct
   const VectorXd l3 = nearer_ * l.moduli, w3 = nearer_ * w.moduli, lb = near_ * l.moduli,
                  wb = near_ * w.moduli;
   const Index count = at_l.size();
+  const Loops loops = basis_.sample_loops();
   std::vector<Leaf> leaves;
   for (Index i = 0; i < count; ++i) {
-    const Index next = (i + 1) % count;
+    const Index next = loops.next(i);
     const BoundaryPiece& piece = basis_.pieces()[static_cast<size_t>(i)];
     const double reach = reach_of(piece);
     leaves.push_back({piece,

@@ -11,7 +11,7 @@ HolomorphicDistance::HolomorphicDistance(const BoundaryBasis& basis, const Refer
     : boundary_(basis, points.boundary),
       inner_(basis.whitened(basis.values(points.inner))),
       weight_(weight),
-      quadratic_(MatrixXd::Zero(2 * basis.size(), 2 * basis.size())) {
+      quadratic_(MatrixXd::Zero(2 * basis.unknowns(), 2 * basis.unknowns())) {
   for (const MatrixXc* rows : std::initializer_list<const MatrixXc*>{&boundary_.rows(), &inner_}) {
     if (rows->rows() == 0) continue;
     MatrixXd re, im;

@@ -9,6 +9,7 @@ namespace holomorph {
 /// Where a reference is sampled: at or near the boundary's samples, and inside.
 struct ReferencePoints {
   Points boundary, inner;
+  std::vector<Index> holes = {};  ///< where each hole starts in `boundary`
 };
 
 class HolomorphicDistance {

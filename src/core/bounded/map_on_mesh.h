@@ -28,9 +28,13 @@ class MapOnMesh {
   /// coefficients in column j of `coefficients`.
   MatrixXc psi_rows(std::span<const Location> locations, const MatrixXc& coefficients) const;
 
+  const MeshTree& tree() const { return tree_; }
+
   /// The antiderivative, at the vertices, of a function of the basis. It is 0 in the middle of the
   /// mesh.
   VectorXc antiderivative(const VectorXc& coefficients) const;
+  /// The derivative of a function of the basis at the vertices.
+  VectorXc slope(const VectorXc& coefficients) const { return product(slopes_, coefficients); }
   /// The values of a function of the basis at the vertices.
   VectorXc function(const VectorXc& coefficients) const { return product(values_, coefficients); }
 

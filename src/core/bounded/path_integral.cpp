@@ -13,7 +13,7 @@ constexpr size_t kBatch = 2048;
 constexpr int kNodes = 12;
 
 /// The ends of a line's panels, as fractions of the line.
-std::vector<double> panels_of(const Points& polygon, const Line& line) {
+std::vector<double> panels_of(PolygonView polygon, const Line& line) {
   const double length = std::abs(line.to - line.from);
   constexpr int kMost = 2000;  // enough if the boundary is a thousandth of the line's length away
   std::vector<double> ends{0};

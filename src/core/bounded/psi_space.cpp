@@ -36,7 +36,7 @@ PsiSpace::PsiSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePo
       pins_(std::move(pins.psi)),
       pin_weight_(pins.weight),
       size_(pins.size) {
-  check(pins_.rows() == 0 || pins_.cols() == basis->size(), "pins: a column for each unknown");
+  check(pins_.rows() == 0 || pins_.cols() == basis->unknowns(), "pins: a column for each unknown");
   if (pins_.rows() > 0) pins_ = (pins_.rowwise() - pins_.colwise().mean()).eval() / size_;
   disks_.height.resize(0, 0);
   real_columns(basis->at_samples(), disks_.re, disks_.im);

@@ -5,21 +5,23 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "core/cauchy/cauchy.h"
 #include "core/cauchy/cauchy_array.h"
 #include "core/error.h"
+#include "core/geometry/orientation.h"
 
 namespace holomorph {
 namespace {
 
 /// The corners of a polygon, moved outward. Corner i ends up at distance distances[i] from the
 /// lines of both adjacent edges, except at a spike.
-Points mitered(const Points& polygon, const std::vector<double>& distances) {
-  const size_t n = polygon.size();
+Polygon mitered(const Polygon& polygon, const std::vector<double>& distances) {
+  const PolygonView view = polygon;
+  const Loops loops = view.loops();
   constexpr double kLongest = 12;  // length of a miter, in units of the distance
-  Points outer;
-  for (size_t i = 0; i < n; ++i) {
-    const Complex before = polygon[i] - polygon[(i + n - 1) % n],
-                  after = polygon[(i + 1) % n] - polygon[i];
+  Polygon outer{{}, polygon.holes};
+  for (Index i = 0; i < view.size(); ++i) {
+    const Complex before = view[i] - view[loops.before(i)], after = view[loops.next(i)] - view[i];
     const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
     Complex miter = u + v;
     const double size = std::norm(miter);
@@ -30,36 +32,28 @@ Points mitered(const Points& polygon, const std::vector<double>& distances) {
       miter = kLongest * before / std::abs(before);
     else
       miter *= 2 / std::max(size, 1e-12);
-    outer.push_back(polygon[i] + distances[i] * miter);
+    outer.points.push_back(view[i] + distances[static_cast<size_t>(i)] * miter);
   }
   return outer;
 }
 
-/// The number of equal parts into which each length is divided: at least one each, about `wanted`
-/// in total.
-std::vector<int> parts_of(const std::vector<double>& lengths, int wanted) {
+/// The number of equal parts into which each segment is divided: at least one each, about `wanted`
+/// in total, and enough in each hole for a round shape unless there are many.
+std::vector<int> parts_of(const Cage& domain, const std::vector<double>& lengths, int wanted) {
   double total = 0;
   for (const double length : lengths) total += length;
+  const Loops loops = domain.loops();
+  constexpr int kFewestInHoles = 300;
+  const int around = std::clamp(kFewestInHoles / static_cast<int>(loops.count()), 5, 12);
   std::vector<int> parts;
-  for (const double length : lengths)
-    parts.push_back(std::max(1, static_cast<int>(std::lround(wanted * length / total))));
-  return parts;
-}
-
-/// The lengths of the segments.
-std::vector<double> lengths_of(const Cage& domain) {
-  std::vector<double> lengths;
   for (Index e = 0; e < domain.size(); ++e) {
-    const Points controls = domain.controls(e);
-    constexpr int kSteps = 32;
-    double length = 0;
-    const int steps = is_straight(domain, e) ? 1 : kSteps;
-    for (int k = 0; k < steps; ++k)
-      length += std::abs(bezier_point(controls, (k + 1.0) / steps) -
-                         bezier_point(controls, static_cast<double>(k) / steps));
-    lengths.push_back(length);
+    const Index loop = loops.loop_of(e);
+    const int length = static_cast<int>(loops.length(loop)),
+              fewest = loop == 0 ? 1 : (around + length - 1) / length;
+    parts.push_back(std::max(
+        fewest, static_cast<int>(std::lround(wanted * lengths[static_cast<size_t>(e)] / total))));
   }
-  return lengths;
+  return parts;
 }
 
 /// The piece divided into parts of equal parameter length.
@@ -80,7 +74,7 @@ double sagitta(const BoundaryPiece& piece) {
 /// About `wanted` pieces of equal length, at least one for each segment, and more where they would
 /// deviate from their chords by more than `flat`.
 std::vector<BoundaryPiece> cut(const Cage& domain, int wanted, double flat) {
-  const std::vector<int> parts = parts_of(lengths_of(domain), wanted);
+  const std::vector<int> parts = parts_of(domain, lengths_of(domain), wanted);
   std::vector<BoundaryPiece> pieces;
   for (Index e = 0; e < domain.size(); ++e)
     for (const BoundaryPiece& piece :
@@ -94,9 +88,15 @@ std::vector<BoundaryPiece> cut(const Cage& domain, int wanted, double flat) {
   return pieces;
 }
 
-Points starts_of(const std::vector<BoundaryPiece>& pieces) {
-  Points starts;
-  for (const BoundaryPiece& piece : pieces) starts.push_back(piece.start);
+/// The starts of the pieces, as one loop for each loop of the domain.
+Polygon starts_of(const Cage& domain, const std::vector<BoundaryPiece>& pieces) {
+  const Loops loops = domain.loops();
+  Polygon starts;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    if (i > 0 && loops.loop_of(pieces[i].segment) != loops.loop_of(pieces[i - 1].segment))
+      starts.holes.push_back(static_cast<Index>(i));
+    starts.points.push_back(pieces[i].start);
+  }
   return starts;
 }
 
@@ -106,41 +106,46 @@ bool crosses(Complex a, Complex b, Complex c, Complex d) {
 }
 
 /// Whether a polygon is simple and surrounds `inner` at a distance of more than `distance`
-/// everywhere.
-bool is_around(const Points& polygon, const Points& inner, double distance) {
+/// everywhere, also in its holes.
+bool is_around(PolygonView polygon, PolygonView inner, double distance) {
   if (self_crossing(polygon)) return false;
-  for (const Complex& z : inner)
+  for (Index l = 0; l < polygon.loops().count(); ++l)  // a large offset turns a hole inside out
+    if ((signed_area(polygon.loop(l)) > 0) != (l == 0)) return false;
+  for (const Complex& z : inner.points())
     if (winding_number(polygon, z) != 1 || nearest_on_polygon(polygon, z).distance <= distance)
       return false;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    if (winding_number(inner, a) != 0 || nearest_on_polygon(inner, a).distance <= distance)
-      return false;
-    for (size_t k = 0; k < inner.size(); ++k)
-      if (crosses(a, b, inner[k], inner[(k + 1) % inner.size()])) return false;
-  }
-  return true;
+  bool around = true;
+  polygon.for_each_edge([&](Index, Complex a, Complex b) {
+    if (!around) return;
+    around = winding_number(inner, a) == 0 && nearest_on_polygon(inner, a).distance > distance;
+    if (!around) return;
+    inner.for_each_edge(
+        [&](Index, Complex c, Complex d) { around = around && !crosses(a, b, c, d); });
+  });
+  return around;
 }
 
 /// A polygon around the domain, and the boundary piece that belongs to each of its edges.
 struct Surrounding {
-  Points polygon;
+  Polygon polygon;
   std::vector<BoundaryPiece> pieces;
 };
 
 Surrounding surrounding(const Cage& domain, int wanted, double distance) {
-  const Points fine = flattened(domain).points;
+  const FlatCage fine = flattened(domain);
   for (int vertices = wanted; vertices <= 4 * wanted; vertices *= 2) {
     const std::vector<BoundaryPiece> pieces = cut(domain, vertices, 1.5 * distance);
-    const Points inner = starts_of(pieces);
+    const Polygon inner = starts_of(domain, pieces);
+    const Loops loops = PolygonView(inner).loops();
     double off = distance;
     for (int halving = 0; halving < 12; ++halving, off *= 0.5) {
       std::vector<double> distances;  // chords of curves cut off parts of the domain
       for (size_t i = 0; i < pieces.size(); ++i) {
-        const BoundaryPiece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
+        const BoundaryPiece& before =
+            pieces[static_cast<size_t>(loops.before(static_cast<Index>(i)))];
         distances.push_back(off + 1.5 * std::max(sagitta(pieces[i]), sagitta(before)));
       }
-      const Points outer = mitered(inner, distances);
+      const Polygon outer = mitered(inner, distances);
       if (is_around(outer, fine, 0.3 * off)) return {outer, pieces};
     }
   }
@@ -151,10 +156,25 @@ Surrounding surrounding(const Cage& domain, int wanted, double distance) {
 
 }  // namespace
 
+std::vector<double> lengths_of(const Cage& domain) {
+  std::vector<double> lengths;
+  for (Index e = 0; e < domain.size(); ++e) {
+    const Points controls = domain.controls(e);
+    constexpr int kSteps = 32;
+    double length = 0;
+    const int steps = is_straight(domain, e) ? 1 : kSteps;
+    for (int k = 0; k < steps; ++k)
+      length += std::abs(bezier_point(controls, (k + 1.0) / steps) -
+                         bezier_point(controls, static_cast<double>(k) / steps));
+    lengths.push_back(length);
+  }
+  return lengths;
+}
+
 BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to) {
   BoundaryPiece piece{segment, from, to, 0, 0, 0, 0};
   if (domain.degree(segment) == 1) {
-    const Complex a = domain.vertex(segment), b = domain.vertex(segment + 1);
+    const Complex a = domain.vertex(segment), b = domain.end_vertex(segment);
     piece.start = from == 0 ? a : a + from * (b - a);
     piece.end = to == 1 ? b : a + to * (b - a);
     piece.length = std::abs(piece.end - piece.start);
@@ -176,9 +196,9 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
 }
 
 BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
-    : domain_(counter_clockwise(domain)) {
+    : domain_(oriented(domain)) {
   check_rest_cage(domain);
-  const double around = perimeter(flattened(domain_).points);
+  const double around = perimeter(flattened(domain_));
   const int vertices = std::max(basis, 25);
   constexpr double kOffset = 0.05;  // in mean edge lengths: for 50 vertices, 0.1 % of the loop
   Surrounding around_domain = surrounding(domain_, vertices, kOffset * around / vertices);
@@ -186,34 +206,64 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
   const int each = std::max(2, static_cast<int>(std::lround(1.0 * samples / vertices)));
   for (const BoundaryPiece& piece : around_domain.pieces)
     for (const BoundaryPiece& part : subdivided(domain_, piece, each)) pieces_.push_back(part);
-  samples_ = starts_of(pieces_);
-  const MatrixXc c = values(samples_);
+  samples_ = starts_of(domain_, pieces_);
+  independent_ = independent_controls(polygon_cage(polygon_));
+  const MatrixXc c = independent(values(samples_.points));
   check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");
   const Eigen::HouseholderQR<MatrixXc> qr(c);
   const double root = std::sqrt(static_cast<double>(c.rows()));
   const MatrixXc r = qr.matrixQR().topRows(c.cols()).triangularView<Eigen::Upper>();
-  coefficients_ =
+  const MatrixXc inverse =
       root * r.triangularView<Eigen::Upper>().solve(MatrixXc::Identity(c.cols(), c.cols())).eval();
+  coefficients_ = MatrixXc::Zero(size(), c.cols());
+  for (size_t k = 0; k < independent_.size(); ++k)
+    coefficients_.row(independent_[k]) = inverse.row(static_cast<Index>(k));
   at_samples_ = root * (qr.householderQ() * MatrixXc::Identity(c.rows(), c.cols()));
-  one_ = r * VectorXc::Ones(c.cols()) / root;
+  // The values 1 on the outer loop give F = 1.
+  VectorXc outer = VectorXc::Zero(c.cols());
+  outer.head(PolygonView(polygon_).loops().length(0)).setOnes();
+  one_ = r * outer / root;
+}
+
+VectorXd BoundaryBasis::sample_weights() const {
+  VectorXd weights = VectorXd::Zero(static_cast<Index>(pieces_.size()));
+  for (Index i = 0; i < weights.size(); ++i) {
+    const BoundaryPiece& piece = pieces_[static_cast<size_t>(i)];
+    const double half = 0.5 * std::abs(piece.end - piece.start);
+    weights[i] += half;
+    weights[sample_loops().next(i)] += half;
+  }
+  return weights / weights.sum();
 }
 
 Points BoundaryBasis::inset(double share) const {
-  const Points fine = flattened(domain_).points;
-  Points inner = samples_;
-  const size_t n = inner.size();
-  for (size_t i = 0; i < n; ++i) {
-    const Complex in = samples_[(i + n - 1) % n] - samples_[i],
-                  out = samples_[(i + 1) % n] - samples_[i];
+  const FlatCage fine = flattened(domain_);
+  const PolygonView at = samples_;
+  Points inner = samples_.points;
+  for (Index i = 0; i < at.size(); ++i) {
+    const Complex in = at[sample_loops().before(i)] - at[i],
+                  out = at[sample_loops().next(i)] - at[i];
     Complex step = share * std::min(std::abs(in), std::abs(out)) * interior_bisector(out, in);
     // Do not move beyond the middle of a thin part.
-    for (int halving = 0; halving < 20 && (winding_number(fine, samples_[i] + step) != 1 ||
-                                           winding_number(fine, samples_[i] + 2.0 * step) != 1);
+    for (int halving = 0; halving < 20 && (winding_number(fine, at[i] + step) != 1 ||
+                                           winding_number(fine, at[i] + 2.0 * step) != 1);
          ++halving)
       step *= 0.5;
-    inner[i] += step;
+    inner[static_cast<size_t>(i)] += step;
   }
   return inner;
+}
+
+MatrixXc BoundaryBasis::independent(const MatrixXc& values) const {
+  if (independent_.size() == polygon_.points.size()) return values;
+  return values(Eigen::all, independent_);
+}
+
+VectorXc BoundaryBasis::expanded(const VectorXc& coefficients) const {
+  VectorXc all = VectorXc::Zero(size());
+  for (size_t k = 0; k < independent_.size(); ++k)
+    all[independent_[k]] = coefficients[static_cast<Index>(k)];
+  return all;
 }
 
 MatrixXc BoundaryBasis::values(std::span<const Complex> points, int order) const {

@@ -3,6 +3,9 @@
 // F = sum of C_j a_j, where C_j are the Cauchy coordinates of a polygon slightly outside the
 // domain. F is therefore smooth up to the boundary of the domain, including the corners. The
 // unknowns are the whitened a_j: their squared norm is the mean of |F|^2 over the samples.
+//
+// In a domain with holes, the polygon has a loop inside each hole. Values of 1 and of z on such a
+// loop alone give F = 0, so two of the loop's a_j are always 0.
 #pragma once
 
 #include <Eigen/QR>
@@ -23,8 +26,11 @@ struct BoundaryPiece {
   double bend = 0;    ///< upper bound on |d^2 z/dx^2|; 0 if straight
 };
 
-/// The part of a segment of a counter-clockwise cage between two parameters.
+/// The part of a segment of an oriented cage between two parameters.
 BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to);
+
+/// The lengths of a cage's segments, accurate to about 1e-3.
+std::vector<double> lengths_of(const Cage& cage);
 
 class BoundaryBasis {
  public:
@@ -34,21 +40,29 @@ class BoundaryBasis {
     return static_cast<int>(std::clamp<Index>(wanted, 50, 150));
   }
 
-  /// The domain may have either orientation. The polygon has about `basis` >= 25 vertices: at least
-  /// one for each vertex of the cage, more along sharp bends, and up to four times as many around
-  /// curves that nearly touch. Each edge of the polygon has `samples` / `basis` samples, but at
-  /// least two. All cage vertices are samples. The polygon is outside the domain, at a distance of
-  /// a twentieth of the mean edge length. It is closer if the domain nearly touches itself. Throws
-  /// Error for cages that check_rest_cage rejects. Cost: `basis` x `samples`, and a QR
-  /// factorization of that size.
+  /// The domain may have any orientation. The polygon has about `basis` >= 25 vertices: at least
+  /// one for each vertex of the cage and twelve for each hole, more along sharp bends, and up to
+  /// four times as many around curves that nearly touch. Each edge of the polygon has `samples` /
+  /// `basis` samples, but at least two. All cage vertices are samples. The polygon is outside the
+  /// domain, also in its holes, at a distance of a twentieth of the mean edge length. It is closer
+  /// if the domain nearly touches itself. Throws Error for cages that check_rest_cage rejects.
+  /// Cost: `basis` x `samples`, and a QR factorization of that size.
   BoundaryBasis(const Cage& domain, int basis, int samples);
 
-  const Cage& domain() const { return domain_; }      ///< counter-clockwise
-  const Points& polygon() const { return polygon_; }  ///< counter-clockwise, simple
-  const Points& samples() const { return samples_; }
-  /// Piece i runs from sample i to the next one.
+  const Cage& domain() const { return domain_; }  ///< oriented: the inside is on its left
+  /// Oriented like the domain, and simple.
+  const Polygon& polygon() const { return polygon_; }
+  const Points& samples() const { return samples_.points; }
+  Loops sample_loops() const { return PolygonView(samples_).loops(); }
+  /// For averages over the boundary: half the lengths of the pieces next to each sample, divided by
+  /// the sum.
+  VectorXd sample_weights() const;
+  /// Piece i runs from sample i to the next one of the same loop.
   const std::vector<BoundaryPiece>& pieces() const { return pieces_; }
-  Index size() const { return static_cast<Index>(polygon_.size()); }
+  /// The number of polygon vertices.
+  Index size() const { return static_cast<Index>(polygon_.points.size()); }
+  /// The number of unknowns, which is smaller than size() in a domain with holes.
+  Index unknowns() const { return coefficients_.cols(); }
 
   /// The samples, moved inward. Each one moves by the fraction `share` of the distance to the
   /// nearer neighboring sample, but in thin parts no farther than the middle.
@@ -61,14 +75,19 @@ class BoundaryBasis {
   const MatrixXc& at_samples() const { return at_samples_; }  ///< the whitened basis
   /// The coefficients a_j for the given unknowns.
   VectorXc coefficients(const VectorXc& unknowns) const { return coefficients_ * unknowns; }
-  /// The matrix that maps unknowns to coefficients, with one column per unknown.
+  /// The columns of C that are linearly independent, and coefficients that belong to these columns
+  /// as coefficients of all columns.
+  MatrixXc independent(const MatrixXc& values) const;
+  VectorXc expanded(const VectorXc& coefficients) const;
+  /// The matrix that maps unknowns to coefficients: size() x unknowns().
   const MatrixXc& coefficients() const { return coefficients_; }
   /// The unknowns of the constant function 1.
   VectorXc one() const { return one_; }
 
  private:
   Cage domain_;
-  Points polygon_, samples_;
+  Polygon polygon_, samples_;
+  std::vector<Index> independent_;
   std::vector<BoundaryPiece> pieces_;
   MatrixXc coefficients_, at_samples_;
   VectorXc one_;

@@ -310,4 +310,16 @@ VertexLimit vertex_limit(const SegmentPolynomial& before, int degree_before,
   return limit;
 }
 
+std::vector<Index> independent_controls(const Cage& cage) {
+  const Loops loops = cage.loops();
+  std::vector<Index> dependent;
+  for (Index l = 1; l < loops.count(); ++l)
+    for (const Index vertex : {loops.first(l), loops.first(l) + loops.length(l) / 2})
+      dependent.push_back(cage.control_offset(vertex));
+  std::vector<Index> kept;
+  for (Index c = 0; c < cage.control_count(); ++c)
+    if (!std::ranges::binary_search(dependent, c)) kept.push_back(c);
+  return kept;
+}
+
 }  // namespace holomorph

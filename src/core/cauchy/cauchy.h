@@ -32,6 +32,10 @@ MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, i
 /// The coordinates at boundary points given by segment and parameter, as limits from inside.
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> points, int order = 0);
 
+/// The control points whose coordinates are linearly independent inside the cage: all except two of
+/// each hole, where values of 1 or of z on the hole's loop alone give 0.
+std::vector<Index> independent_controls(const Cage& cage);
+
 /// Whether z lies inside the cage or, to within rounding error, on it. The answer is exact even for
 /// curved cages, because the winding number is the sum of the imaginary parts of the same
 /// logarithms. The cage may have either orientation. Costs as much as a row of order 0.

@@ -9,6 +9,7 @@
 #include "core/cauchy/cauchy_kernel.h"
 #include "core/cauchy/cauchy_rows.h"
 #include "core/error.h"
+#include "core/geometry/orientation.h"
 
 namespace holomorph {
 namespace {
@@ -48,7 +49,7 @@ class BlockFiller {
       offsets_.push_back(cage.control_offset(e));
       segments_.emplace_back(cage.controls(e));
       roots_.emplace_back(segments_.back().degree());
-      const Complex a = cage.vertex(e), b = cage.vertex(e + 1);
+      const Complex a = cage.vertex(e), b = cage.end_vertex(e);
       const Complex unit = std::conj(b - a) / std::norm(b - a);
       const double rounding = 16 * std::numeric_limits<double>::epsilon() *
                               (std::abs(a) + std::abs(b) + farthest) / std::abs(b - a);
@@ -64,15 +65,17 @@ class BlockFiller {
     needs_patch_.fill(false);
     // The column of a vertex is the last moment of the segment before it plus the first moment of
     // the segment after it.
-    const Index n = cage_.size();
-    moments_of(n - 1, moments_[1]);
-    for (Index e = 0; e < n; ++e) {
-      kernel::Moments& own = moments_[e % 2];
-      const kernel::Moments& before = moments_[(e + 1) % 2];
-      moments_of(e, own);
-      const int last = cage_.degree((e + n - 1) % n);
-      write(own, 0, &before, last, first, offsets_[e]);
-      for (int m = 1; m < cage_.degree(e); ++m) write(own, m, nullptr, 0, first, offsets_[e] + m);
+    const Loops loops = cage_.loops();
+    for (Index l = 0; l < loops.count(); ++l) {
+      Index last = loops.end(l) - 1;
+      moments_of(last, moments_[(loops.first(l) + 1) % 2]);
+      for (Index e = loops.first(l); e < loops.end(l); last = e++) {
+        kernel::Moments& own = moments_[e % 2];
+        const kernel::Moments& before = moments_[(e + 1) % 2];
+        moments_of(e, own);
+        write(own, 0, &before, cage_.degree(last), first, offsets_[e]);
+        for (int m = 1; m < cage_.degree(e); ++m) write(own, m, nullptr, 0, first, offsets_[e] + m);
+      }
     }
     for (Index i = 0; i < count; ++i)
       if (needs_patch_[i]) patch_row(here_[i], first + i);
@@ -177,7 +180,7 @@ class BlockFiller {
     const auto patch = rows_->patch(z);
     if (!patch) return;
     for (Index k = 0; k < patch->values.size(); ++k) {
-      const Index column = (patch->first + k) % out_.cols();
+      const Index column = patch->columns[static_cast<size_t>(k)];
       out_.re(row, column) = static_cast<T>(patch->values[k].real());
       out_.im(row, column) = static_cast<T>(patch->values[k].imag());
     }
@@ -236,11 +239,11 @@ template <class T>
 void planar_coordinates(const Cage& cage, std::span<const Complex> points, int order, Kernel choice,
                         PlanarMatrix<T>& out) {
   check(order == 0 || order == 1, "planar_coordinates: order 0 or 1");
-  if (signed_area(outline_of(cage)) < 0) {
+  if (const Orientation orientation(cage); !orientation.is_oriented()) {
     PlanarMatrix<T> turned;
-    planar_coordinates<T>(reversed(cage), points, order, choice, turned);
+    planar_coordinates<T>(orientation.turned(cage), points, order, choice, turned);
     out.resize(turned.rows(), turned.cols());
-    const std::vector<Index> column = reversed_columns(cage);
+    const std::vector<Index> column = orientation.columns(cage);
     for (Index c = 0; c < out.cols(); ++c) {
       out.re.col(c) = turned.re.col(column[c]);
       out.im.col(c) = turned.im.col(column[c]);

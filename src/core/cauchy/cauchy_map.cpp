@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <utility>
 
 #include "core/arithmetic.h"
 #include "core/cauchy/quadrature.h"
+#include "core/geometry/orientation.h"
 
 namespace holomorph {
 namespace {
@@ -30,17 +30,13 @@ Points at_nodes(std::span<const Complex> controls, int count) {
 }  // namespace
 
 CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
-  Cage rest = given;
-  VectorXc displacement = displaced;
-  if (signed_area(outline_of(given)) < 0) {  // the formulas are for counter-clockwise cages
-    rest = reversed(given);
-    const std::vector<Index> column = reversed_columns(given);
-    for (Index c = 0; c < displaced.size(); ++c) displacement[column[c]] = displaced[c];
-  }
+  // The formulas are for cages with their inside on the left.
+  const Orientation orientation(given);
+  const Cage rest = orientation.turned(given);
+  const VectorXc displacement = orientation.turned(given, displaced);
   for (Index e = 0; e < rest.size(); ++e) {
     Points d;
-    for (int m = 0; m <= rest.degree(e); ++m)
-      d.push_back(displacement[(rest.control_offset(e) + m) % displacement.size()]);
+    for (int m = 0; m <= rest.degree(e); ++m) d.push_back(displacement[rest.control_index(e, m)]);
     const Points backwards(d.rbegin(), d.rend());
     Segment segment{
         SegmentPolynomial(rest.controls(e)),
@@ -50,12 +46,13 @@ CauchySum::CauchySum(const Cage& given, const VectorXc& displaced) {
         {at_nodes(d, kRules[0].nodes), at_nodes(d, kRules[1].nodes), at_nodes(d, kRules[2].nodes)},
         0,
         0,
+        rest.next(e),
         false};
     for (const Complex& by : d) segment.is_moved = segment.is_moved || by != Complex(0);
     segments_.push_back(std::move(segment));
   }
   for (Index e = 0; e < rest.size(); ++e) {
-    const Segment& before = segments_[static_cast<size_t>((e + rest.size() - 1) % rest.size())];
+    const Segment& before = segments_[static_cast<size_t>(rest.before(e))];
     Segment& own = segments_[static_cast<size_t>(e)];
     const Complex in = -before.curve.derivative({1, 0}), out = own.curve.derivative({0, 1});
     const double shorter = std::min(std::abs(own.curve.end() - own.curve.start()),
@@ -132,11 +129,9 @@ CauchySum::ValueAndSlope CauchySum::at(Complex point) const {
   const auto is_near = [&](const Segment& segment) {
     return std::norm(segment.curve.start() - z) < segment.reach * segment.reach;
   };
-  bool near_start = is_near(segments_[0]);
   for (size_t e = 0; e < segments_.size(); ++e) {
     const Segment& segment = segments_[e];
-    const bool near_end = is_near(segments_[(e + 1) % segments_.size()]);
-    const Ends near{std::exchange(near_start, near_end), near_end};
+    const Ends near{is_near(segment), is_near(segments_[static_cast<size_t>(segment.next)])};
     const std::span<Root> found(roots.data(), static_cast<size_t>(segment.curve.degree()));
     segment.curve.roots(z, found);
     for (Root& root : found) {

@@ -37,6 +37,7 @@ class CauchySum {
     std::array<Points, 3> at_nodes;  ///< d at the nodes of each quadrature rule
     Complex inwards;                 ///< a tiny step from the start into the cage
     double reach = 0;                ///< radius around the start within which poles are omitted
+    Index next = 0;                  ///< the segment that starts at the end of this one
     bool is_moved = false;
   };
   static ValueAndSlope integral(const Segment& segment, const Root& root, Complex log,

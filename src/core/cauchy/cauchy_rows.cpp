@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "core/arithmetic.h"
 #include "core/error.h"
+#include "core/geometry/orientation.h"
 
 namespace holomorph {
 namespace {
@@ -27,14 +29,14 @@ CauchyRows::CauchyRows(const Cage& cage, int order, AtVertices at_vertices)
   for (Index e = 0; e < cage.size(); ++e) {
     offsets_.push_back(cage.control_offset(e));
     segments_.emplace_back(cage.controls(e));
-    reach_.push_back(std::min(std::abs(cage.vertex(e + 1) - cage.vertex(e)),
-                              std::abs(cage.vertex(e) - cage.vertex(e - 1))));
+    reach_.push_back(std::min(std::abs(cage.end_vertex(e) - cage.vertex(e)),
+                              std::abs(cage.vertex(e) - cage.vertex(cage.before(e)))));
   }
 }
 
 Index CauchyRows::column(size_t segment, int m) const {
   return m < cage_.degree(static_cast<Index>(segment)) ? offsets_[segment] + m
-                                                       : offsets_[(segment + 1) % segments_.size()];
+                                                       : offsets_[next(segment)];
 }
 
 Complex CauchyRows::inwards(size_t vertex) const {
@@ -61,12 +63,12 @@ bool CauchyRows::is_undefined(const EvalPoint& eval_point) const {
 
 /// The coordinates of one segment's control points.
 VectorXc CauchyRows::coordinates(const EvalPoint& eval_point, size_t segment) const {
-  const size_t next = (segment + 1) % segments_.size();
+  const size_t after = next(segment);
   const Index number = static_cast<Index>(segment);
   const int degree = cage_.degree(number);
   if (eval_point.on && eval_point.on->is_vertex()) {
     const size_t vertex = static_cast<size_t>(eval_point.on->segment);
-    if (segment == vertex || next == vertex) {
+    if (segment == vertex || after == vertex) {
       const size_t last = before(vertex);
       const VertexLimit limit =
           vertex_limit(segments_[last], cage_.degree(static_cast<Index>(last)), segments_[vertex],
@@ -80,7 +82,7 @@ VectorXc CauchyRows::coordinates(const EvalPoint& eval_point, size_t segment) co
   };
   const bool own = eval_point.on && eval_point.on->segment == number;
   return segment_coordinates(segments_[segment], degree, eval_point.point, order_,
-                             own ? &*eval_point.on : nullptr, {is_near(segment), is_near(next)});
+                             own ? &*eval_point.on : nullptr, {is_near(segment), is_near(after)});
 }
 
 VectorXc CauchyRows::whole_row(const EvalPoint& eval_point) const {
@@ -112,7 +114,7 @@ void CauchyRows::set_second_derivatives(VectorXc& row, const FinePoint& z) const
   for (Index v = 0; v < cage_.size(); ++v) {
     const size_t vertex = static_cast<size_t>(v);
     if (cage_.degree(v) != 1 || cage_.degree(static_cast<Index>(before(vertex))) != 1) continue;
-    const Complex last = cage_.vertex(v - 1), after = cage_.vertex(v + 1);
+    const Complex last = cage_.vertex(cage_.before(v)), after = cage_.end_vertex(v);
     const Complex product = times(times(last - z, cage_.vertex(v) - z), after - z);
     row[offsets_[vertex]] = times(after - last, inverse(2 * kPi * times(kI, product)));
   }
@@ -126,34 +128,47 @@ std::optional<CauchyRows::Patch> CauchyRows::patch(Complex z) const {
     for (size_t v = 0; v < segments_.size(); ++v)
       if (std::abs(segments_[v].start() - z) < kPole * reach_[v]) own = v;
   if (own == segments_.size()) return {};
-  // Extend the range of segments in both directions along the boundary, as far as a shift by a
-  // rounding error matters.
-  const size_t n = segments_.size();
+  // Extend the range of segments in both directions along the loop, as far as a shift by a rounding
+  // error matters.
+  const Loops loops = cage_.loops();
+  const Index loop = loops.loop_of(static_cast<Index>(own));
+  const size_t first = static_cast<size_t>(loops.first(loop)),
+               n = static_cast<size_t>(loops.length(loop));
+  const auto segment = [&](size_t k) { return first + k % n; };
   const double far = kRecovers * rounding_of(segments_[own], z, 0.5, 0.5);
-  const auto is_affected = [&](size_t vertex) {
-    return std::abs(segments_[vertex % n].start() - z) < far;
+  const auto is_affected = [&](size_t k) {
+    return std::abs(segments_[segment(k)].start() - z) < far;
   };
-  size_t from = own + n - 1, to = own + n + 1;
+  size_t from = own - first + n - 1, to = own - first + n + 1;
   while (to - from < n && is_affected(from)) --from;
   while (to - from < n && is_affected(to + 1)) ++to;
-  if (to - from + 3 >= n) return Patch{0, whole_row(eval_point)};
+  Patch patch;
+  if (to - from + 3 >= n) {
+    patch.values = whole_row(eval_point);
+    patch.columns.resize(static_cast<size_t>(patch.values.size()));
+    std::iota(patch.columns.begin(), patch.columns.end(), Index{0});
+    return patch;
+  }
   // Fill the columns of these segments. The adjacent segments on both sides contribute to them,
   // too.
-  Patch patch{column(from % n, 0), {}};
-  const Index all = cage_.control_count();
-  const Index count = (column((to + 1) % n, 0) - patch.first + all) % all + 1;
-  patch.values = VectorXc::Zero(count);
-  const auto add = [&](size_t segment, bool first, bool last, bool middle) {
-    const VectorXc values = coordinates(eval_point, segment % n);
-    for (Index m = 0; m < values.size(); ++m) {
-      if (!(m == 0 ? first : m + 1 == values.size() ? last : middle)) continue;
-      patch.values[(column(segment % n, static_cast<int>(m)) - patch.first + all) % all] +=
-          values[m];
+  for (size_t k = from; k <= to; ++k)
+    for (int m = 0; m < cage_.degree(static_cast<Index>(segment(k))); ++m)
+      patch.columns.push_back(column(segment(k), m));
+  patch.columns.push_back(column(segment(to + 1), 0));
+  patch.values = VectorXc::Zero(static_cast<Index>(patch.columns.size()));
+  Index at = 0;
+  for (size_t k = from - 1; k <= to + 1; ++k) {
+    const VectorXc values = coordinates(eval_point, segment(k));
+    const Index degree = values.size() - 1;
+    if (k < from) {
+      patch.values[0] += values[degree];
+    } else if (k > to) {
+      patch.values[at] += values[0];
+    } else {
+      patch.values.segment(at, degree + 1) += values;
+      at += degree;
     }
-  };
-  add(from - 1, false, true, false);
-  for (size_t e = from; e <= to; ++e) add(e, true, true, true);
-  add(to + 1, true, false, false);
+  }
   return patch;
 }
 
@@ -162,20 +177,15 @@ namespace {
 template <class Point>
 MatrixXc rows(const Cage& cage, std::span<const Point> places, int order) {
   if (order < 0) throw Error(ErrorKind::bad_input, "the order of a derivative cannot be negative");
-  const bool clockwise = signed_area(outline_of(cage)) < 0;
-  const CauchyRows builder(clockwise ? reversed(cage) : cage, order,
-                           CauchyRows::AtVertices::not_a_number);
+  const Orientation orientation(cage);
+  const CauchyRows builder(orientation.turned(cage), order, CauchyRows::AtVertices::not_a_number);
   MatrixXc result(static_cast<Index>(places.size()), cage.control_count());
-  const std::vector<Index> turned = clockwise ? reversed_columns(cage) : std::vector<Index>{};
+  const std::vector<Index> column = orientation.columns(cage);
   for (Index i = 0; i < result.rows(); ++i) {
     Point place = places[static_cast<size_t>(i)];
-    if constexpr (std::is_same_v<Point, BoundaryPoint>)
-      if (clockwise)
-        place = place.t == 0 ? BoundaryPoint{(cage.size() - place.segment) % cage.size(), 0}
-                             : BoundaryPoint{cage.size() - 1 - place.segment, 1 - place.t};
+    if constexpr (std::is_same_v<Point, BoundaryPoint>) place = orientation.turned(place);
     const VectorXc row = builder.row(place);
-    for (Index c = 0; c < row.size(); ++c)
-      result(i, c) = row[clockwise ? turned[static_cast<size_t>(c)] : c];
+    for (Index c = 0; c < row.size(); ++c) result(i, c) = row[column[static_cast<size_t>(c)]];
   }
   return result;
 }
@@ -194,14 +204,19 @@ bool contains(const Cage& cage, Complex z) {
   std::vector<SegmentPolynomial> segments;
   for (Index e = 0; e < cage.size(); ++e) segments.emplace_back(cage.controls(e));
   if (contact_of(segments, z)) return true;
-  double turns = 0;
   std::vector<Root> roots;
-  for (const SegmentPolynomial& segment : segments) {
-    roots.resize(static_cast<size_t>(segment.degree()));
-    segment.roots(z, roots);
-    for (const Root& root : roots) turns += angle_of(root);
+  const Loops loops = cage.loops();
+  for (Index l = 0; l < loops.count(); ++l) {
+    double turns = 0;
+    for (Index e = loops.first(l); e < loops.end(l); ++e) {
+      const SegmentPolynomial& segment = segments[static_cast<size_t>(e)];
+      roots.resize(static_cast<size_t>(segment.degree()));
+      segment.roots(z, roots);
+      for (const Root& root : roots) turns += angle_of(root);
+    }
+    if ((std::abs(turns) > kPi) != (l == 0)) return false;
   }
-  return std::abs(turns) > kPi;
+  return true;
 }
 
 }  // namespace holomorph

@@ -15,7 +15,7 @@ class CauchyRows {
   /// The product of that row with control points is the limit if their slope does not jump.
   enum class AtVertices { not_a_number, from_inside };
 
-  /// The cage must be counter-clockwise, and the order must be >= 0.
+  /// The cage's inside must be on its left, and the order must be >= 0.
   CauchyRows(const Cage& cage, int order, AtVertices at_vertices);
 
   /// The coordinates of all control points at z, or at a boundary point.
@@ -23,10 +23,10 @@ class CauchyRows {
   VectorXc row(BoundaryPoint point) const;
 
   /// Correct values for the columns of the row at z that would lose accuracy if each segment were
-  /// evaluated separately. This happens on the boundary and, for derivatives, next to a vertex. The
-  /// columns are `first` and its successors, cyclically. Returns nullopt if no column is affected.
+  /// evaluated separately. This happens on the boundary and, for derivatives, next to a vertex.
+  /// Returns nullopt if no column is affected.
   struct Patch {
-    Index first = 0;
+    std::vector<Index> columns;
     VectorXc values;
   };
   std::optional<Patch> patch(Complex z) const;
@@ -38,7 +38,12 @@ class CauchyRows {
     std::optional<Contact> on;
   };
 
-  size_t before(size_t vertex) const { return (vertex + segments_.size() - 1) % segments_.size(); }
+  size_t before(size_t vertex) const {
+    return static_cast<size_t>(cage_.before(static_cast<Index>(vertex)));
+  }
+  size_t next(size_t segment) const {
+    return static_cast<size_t>(cage_.next(static_cast<Index>(segment)));
+  }
   Index column(size_t segment, int m) const;
   bool is_undefined(const EvalPoint& eval_point) const;
   EvalPoint eval_point_on(const Contact& contact) const;

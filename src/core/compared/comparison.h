@@ -21,6 +21,10 @@ struct ComparedMap {
   double milliseconds = 0;    ///< time of the solve, excluding preparation
   int iterations = 0;
   bool settled = true;  ///< false when it stopped at the iteration limit
+  /// For comparisons of methods with pins: see isometric_energy_of, and the largest distance of a
+  /// pin from its target.
+  std::optional<double> energy = {};
+  double miss = 0;
 };
 
 /// Compares maps for a rest and pose of method `bounded`. The rows are the reference itself, this

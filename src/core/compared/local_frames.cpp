@@ -17,7 +17,7 @@ constexpr int kMostFrames = 20, kMostNewton = 12;
 constexpr double kLeastAngle = 1e-3;
 constexpr double kSettledChange = 1e-4;  ///< largest change of an element
 
-struct Barrier {
+struct FrameBarrier {
   double value = 0;
   Vector5 gradient = Vector5::Zero();
   Matrix5 hessian = Matrix5::Zero();
@@ -96,10 +96,10 @@ class LocalFrames {
     return sum;
   }
 
-  Barrier barrier(const VectorXd& y, Index i) const {
+  FrameBarrier barrier(const VectorXd& y, Index i) const {
     const Cones a = cones(i);
     const Offsets s = a * point(y, r_, i) + offsets();
-    Barrier result;
+    FrameBarrier result;
     for (int c = 0; c < 4; ++c) {
       const Cone3 cone = s.segment<3>(3 * c), q = reflected(cone);
       const auto rows = a.middleRows<3>(3 * c);
@@ -133,11 +133,11 @@ class LocalFrames {
     const VectorXd y = t_.apply(x_);
     const Index m = t_.elements();
     std::vector<Eigen::Matrix4d> blocks;
-    std::vector<Barrier> barriers;
+    std::vector<FrameBarrier> barriers;
     VectorXd pull(4 * m);
     for (Index i = 0; i < m; ++i) {
       barriers.push_back(barrier(y, i));
-      const Barrier& b = barriers.back();
+      const FrameBarrier& b = barriers.back();
       // Eliminate r using its own row of the system.
       const Eigen::Vector4d mixed = b.hessian.col(4).head<4>();
       const double rr = b.hessian(4, 4);
@@ -151,7 +151,7 @@ class LocalFrames {
     VectorXd dr(m);
     double slope = pull.dot(dy);
     for (Index i = 0; i < m; ++i) {
-      const Barrier& b = barriers[static_cast<size_t>(i)];
+      const FrameBarrier& b = barriers[static_cast<size_t>(i)];
       dr[i] =
           -(b.gradient[4] + b.hessian.col(4).head<4>().dot(dy.segment<4>(4 * i))) / b.hessian(4, 4);
       slope -= mu * b.gradient[4] * b.gradient[4] / b.hessian(4, 4);

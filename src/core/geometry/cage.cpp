@@ -19,7 +19,7 @@ Index Cage::control_count() const {
 
 Points Cage::controls(Index segment) const {
   Points all = segments[segment];
-  all.push_back(vertex(segment + 1));
+  all.push_back(end_vertex(segment));
   return all;
 }
 
@@ -29,9 +29,11 @@ Index Cage::control_offset(Index segment) const {
   return offset;
 }
 
-Cage polygon_cage(std::span<const Complex> vertices) {
+Cage polygon_cage(PolygonView polygon) {
   Cage cage;
-  for (const Complex& z : vertices) cage.segments.push_back({z});
+  for (const Complex& z : polygon.points()) cage.segments.push_back({z});
+  for (Index l = 1; l < polygon.loops().count(); ++l)
+    cage.holes.push_back(polygon.loops().first(l));
   return cage;
 }
 
@@ -49,12 +51,21 @@ VectorXc controls_of(const Cage& cage) {
   return all;
 }
 
-Cage elevated_to(const Cage& cage, const Cage& other) {
-  if (cage.size() != other.size())
-    throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(other.size()) +
+void check_same_loops(const Cage& rest, const Cage& pose) {
+  if (pose.size() != rest.size())
+    throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(pose.size()) +
                                           " segments, but the rest cage has " +
-                                          std::to_string(cage.size()) + "; they must agree");
+                                          std::to_string(rest.size()) + "; they must agree");
+  if (pose.holes != rest.holes)
+    throw Error(ErrorKind::bad_input,
+                "the holes of the posed cage do not have as many segments as those of the rest "
+                "cage; they must agree");
+}
+
+Cage elevated_to(const Cage& cage, const Cage& other) {
+  check_same_loops(cage, other);
   Cage raised;
+  raised.holes = cage.holes;
   for (Index i = 0; i < cage.size(); ++i) {
     Points curve = elevated(cage.controls(i), std::max(cage.degree(i), other.degree(i)));
     curve.pop_back();
@@ -63,55 +74,48 @@ Cage elevated_to(const Cage& cage, const Cage& other) {
   return raised;
 }
 
-Points outline_of(const Cage& cage, int per_curve) {
-  Points outline;
+Polygon outline_of(const Cage& cage, int per_curve) {
+  Polygon outline;
   for (Index i = 0; i < cage.size(); ++i) {
-    outline.push_back(cage.vertex(i));
+    if (std::ranges::binary_search(cage.holes, i))
+      outline.holes.push_back(static_cast<Index>(outline.points.size()));
+    outline.points.push_back(cage.vertex(i));
     if (cage.degree(i) == 1) continue;
     const Points controls = cage.controls(i);
     for (int k = 1; k < per_curve; ++k)
-      outline.push_back(bezier_point(controls, static_cast<double>(k) / per_curve));
+      outline.points.push_back(bezier_point(controls, static_cast<double>(k) / per_curve));
   }
   return outline;
 }
 
-Cage reversed(const Cage& cage) {
-  Cage backwards;
-  for (Index i = cage.size() - 1; i >= 0; --i) {
-    Points controls = cage.controls(i);
-    std::reverse(controls.begin(), controls.end());
+Cage reversed(const Cage& cage, Index loop) {
+  Cage backward = cage;
+  const Index first = cage.loops().first(loop), end = cage.loops().end(loop);
+  for (Index i = first; i < end; ++i) {
+    Points controls = cage.controls(first + end - 1 - i);
+    std::ranges::reverse(controls);
     controls.pop_back();
-    backwards.segments.push_back(std::move(controls));
+    backward.segments[i] = std::move(controls);
   }
-  return backwards;
+  return backward;
 }
 
-Cage counter_clockwise(const Cage& cage) {
-  return signed_area(outline_of(cage)) < 0 ? reversed(cage) : cage;
+Cage reversed(const Cage& cage) {
+  Cage backward = cage;
+  for (Index l = 0; l < cage.loops().count(); ++l) backward = reversed(backward, l);
+  return backward;
 }
 
 Complex point_inside_vertex(const Cage& cage, Complex z) {
   for (Index v = 0; v < cage.size(); ++v) {
     if (cage.vertex(v) != z) continue;
-    const Points before = cage.controls((v + cage.size() - 1) % cage.size()),
-                 after = cage.controls(v);
+    const Points before = cage.controls(cage.before(v)), after = cage.controls(v);
     const Complex in = before[before.size() - 2] - z, out = after[1] - z;
     const double shorter = std::min(std::abs(before.front() - z), std::abs(after.back() - z)),
                  rounding = std::numeric_limits<double>::epsilon() * std::abs(z);
     return z + std::max(1e-9 * shorter, 64 * rounding) * interior_bisector(out, in);
   }
   return z;
-}
-
-std::vector<Index> reversed_columns(const Cage& cage) {
-  Cage tagged = cage;
-  Index c = 0;
-  for (Points& segment : tagged.segments)
-    for (Complex& z : segment) z = static_cast<double>(c++);
-  const VectorXc order = controls_of(reversed(tagged));
-  std::vector<Index> column(c);
-  for (Index i = 0; i < c; ++i) column[static_cast<Index>(order[i].real())] = i;
-  return column;
 }
 
 void insert_vertex(Cage& cage, Index segment, double t) {
@@ -121,10 +125,11 @@ void insert_vertex(Cage& cage, Index segment, double t) {
   halves.after.pop_back();
   cage.segments[segment] = std::move(halves.before);
   cage.segments.insert(cage.segments.begin() + segment + 1, std::move(halves.after));
+  for (Index& hole : cage.holes) hole += hole > segment ? 1 : 0;
 }
 
 double joint_parameter(const Cage& cage, Index vertex) {
-  const Index before = (vertex + cage.size() - 1) % cage.size();
+  const Index before = cage.before(vertex);
   const Points left = cage.controls(before), right = cage.controls(vertex);
   const double in = cage.degree(before) * std::abs(left.back() - left[left.size() - 2]),
                out = cage.degree(vertex) * std::abs(right[1] - right[0]);
@@ -132,8 +137,10 @@ double joint_parameter(const Cage& cage, Index vertex) {
 }
 
 void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit) {
-  check(cage.size() > 3 && vertex >= 0 && vertex < cage.size(), "erase_vertex: more than three");
-  const Index before = (vertex + cage.size() - 1) % cage.size();
+  check(
+      vertex >= 0 && vertex < cage.size() && cage.loops().length(cage.loops().loop_of(vertex)) > 3,
+      "erase_vertex: more than three");
+  const Index before = cage.before(vertex);
   const int degree = std::max(cage.degree(before), cage.degree(vertex));
   if (degree > 1 && refit == Refit::tangents) {
     const Points left = elevated(cage.controls(before), std::max(3, cage.degree(before))),
@@ -155,6 +162,25 @@ void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit) {
     cage.segments[before] = std::move(curve);
   }
   cage.segments.erase(cage.segments.begin() + vertex);
+  for (Index& hole : cage.holes) hole -= hole > vertex ? 1 : 0;
+}
+
+void add_hole(Cage& cage, const std::vector<Points>& segments) {
+  cage.holes.push_back(cage.size());
+  cage.segments.insert(cage.segments.end(), segments.begin(), segments.end());
+}
+
+void erase_hole(Cage& cage, Index loop) {
+  check(loop >= 1 && loop < cage.loops().count(), "erase_hole: a hole");
+  const Index first = cage.loops().first(loop), length = cage.loops().length(loop);
+  cage.segments.erase(cage.segments.begin() + first, cage.segments.begin() + first + length);
+  cage.holes.erase(cage.holes.begin() + (loop - 1));
+  for (Index& hole : cage.holes) hole -= hole > first ? length : 0;
+}
+
+Cage loop_of(const Cage& cage, Index loop) {
+  const Loops loops = cage.loops();
+  return {{cage.segments.begin() + loops.first(loop), cage.segments.begin() + loops.end(loop)}};
 }
 
 bool is_straight(const Cage& cage, Index segment) {
@@ -176,6 +202,8 @@ FlatCage flattened(const Cage& cage) {
   const double tolerance = kFlat * box_of(controls_of(cage)).diagonal();
   FlatCage flat;
   for (Index i = 0; i < cage.size(); ++i) {
+    if (std::ranges::binary_search(cage.holes, i))
+      flat.holes.push_back(static_cast<Index>(flat.points.size()));
     const Points controls = cage.controls(i);
     double bend = 0;  // upper bound on c'' / (n (n - 1)): the largest second difference
     for (size_t m = 0; m + 2 < controls.size(); ++m)
@@ -194,12 +222,18 @@ FlatCage flattened(const Cage& cage) {
   return flat;
 }
 
+BoundaryPoint FlatCage::on_edge(Index i, double t) const {
+  const auto& [segment, from] = locations[static_cast<size_t>(i)];
+  const Index next = PolygonView(*this).loops().next(i);
+  const BoundaryPoint& end = locations[static_cast<size_t>(next)];
+  // The last edge of a segment ends at the start of the next segment.
+  const double to = end.segment == segment && end.t > from ? end.t : 1;
+  return {segment, from + t * (to - from)};
+}
+
 BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z) {
-  const NearestPoint near = nearest_on_polygon(flat.points, z);
-  const size_t from = static_cast<size_t>(near.edge), to = (from + 1) % flat.locations.size();
-  const auto [segment, start] = flat.locations[from];
-  const double end = flat.locations[to].segment == segment && to > 0 ? flat.locations[to].t : 1;
-  double t = start + near.t * (end - start);
+  const NearestPoint near = nearest_on_polygon(flat, z);
+  auto [segment, t] = flat.on_edge(near.edge, near.t);
   if (!is_straight(cage, segment)) {
     const SegmentPolynomial curve(cage.controls(segment));
     constexpr int kSteps = 6;  // Gauss-Newton steps, starting within 5e-5 of the cage's size
@@ -210,7 +244,7 @@ BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z) {
       t = std::clamp(t - dot(slope, curve.at(at) - z) / std::norm(slope), 0.0, 1.0);
     }
   }
-  return t < 1 ? BoundaryPoint{segment, t} : BoundaryPoint{(segment + 1) % cage.size(), 0};
+  return t < 1 ? BoundaryPoint{segment, t} : BoundaryPoint{cage.next(segment), 0};
 }
 
 std::string point_text(Complex z) {
@@ -227,15 +261,20 @@ namespace {
 std::optional<Error> gap_fault(const FlatCage& flat) {
   constexpr double kNeedle = 1e-7;
   const Points& polygon = flat.points;
+  const Loops loops = PolygonView(flat).loops();
   const Index n = static_cast<Index>(polygon.size());
-  std::vector<double> along(polygon.size() + 1, 0);  // arc length up to each vertex
+  std::vector<double> along(polygon.size() + 1, 0);  // arc length of all edges up to each vertex
   for (Index e = 0; e < n; ++e)
-    along[e + 1] = along[e] + std::abs(polygon[(e + 1) % n] - polygon[e]);
-  // The distance along the boundary between a vertex and an edge, in the shorter direction.
+    along[e + 1] = along[e] + std::abs(polygon[loops.next(e)] - polygon[e]);
+  // The distance along the boundary between a vertex and an edge, in the shorter direction. No path
+  // along the boundary leads to another loop, so the whole length counts.
   const auto boundary_distance = [&](Index vertex, Index edge) {
+    const Index loop = loops.loop_of(edge);
+    if (loops.loop_of(vertex) != loop) return along[n];
+    const double length = along[loops.end(loop)] - along[loops.first(loop)];
     const double forward = along[vertex] - along[edge + 1], back = along[edge] - along[vertex];
-    return forward >= 0 ? std::min(forward, along[n] - along[vertex] + along[edge])
-                        : std::min(back, along[n] - along[edge + 1] + along[vertex]);
+    return forward >= 0 ? std::min(forward, length - along[vertex] + along[edge])
+                        : std::min(back, length - along[edge + 1] + along[vertex]);
   };
   double largest = 0;
   for (const Complex& z : polygon) largest = std::max(largest, std::abs(z));
@@ -246,14 +285,15 @@ std::optional<Error> gap_fault(const FlatCage& flat) {
   std::ranges::sort(by_x, {}, [&](Index v) { return polygon[v].real(); });
   const double most = std::max(gap, kNeedle * along[n]);
   for (Index e = 0; e < n; ++e) {
-    const Complex a = polygon[e], b = polygon[(e + 1) % n];
+    const Complex a = polygon[e], b = polygon[loops.next(e)];
     const auto [left, right] = std::minmax({a.real(), b.real()});
     const auto [low, high] = std::minmax({a.imag(), b.imag()});
     auto v =
         std::ranges::lower_bound(by_x, left - most, {}, [&](Index i) { return polygon[i].real(); });
     for (; v != by_x.end() && polygon[*v].real() <= right + most; ++v) {
       const Complex z = polygon[*v];
-      if (*v == e || *v == (e + 1) % n || z.imag() < low - most || z.imag() > high + most) continue;
+      if (*v == e || *v == loops.next(e) || z.imag() < low - most || z.imag() > high + most)
+        continue;
       if (nearest_on_segment(a, b, z).distance <= std::max(gap, kNeedle * boundary_distance(*v, e)))
         return Error(ErrorKind::bad_input,
                      "the rest cage touches itself: point " +
@@ -297,8 +337,7 @@ std::optional<Error> speed_fault(const Cage& cage, Index segment) {
 std::optional<Error> tip_fault(const Cage& cage) {
   constexpr double kTip = 1e-7;  // radians
   for (Index i = 0; i < cage.size(); ++i) {
-    const Points before = cage.controls((i + cage.size() - 1) % cage.size()),
-                 own = cage.controls(i);
+    const Points before = cage.controls(cage.before(i)), own = cage.controls(i);
     const Complex z = own[0], in = before[before.size() - 2] - z, out = own[1] - z;
     if (dot(in, out) > 0 && std::abs(cross(in, out)) <= kTip * std::abs(in) * std::abs(out))
       return Error(ErrorKind::bad_input,
@@ -334,7 +373,7 @@ std::optional<Error> length_fault(const Cage& cage) {
     const Points controls = cage.controls(i);
     const bool moves =
         std::any_of(controls.begin(), controls.end(), [&](Complex z) { return z != controls[0]; });
-    if (!moves || (cage.vertex(i) == cage.vertex(i + 1) && is_straight(cage, i)))
+    if (!moves || (cage.vertex(i) == cage.end_vertex(i) && is_straight(cage, i)))
       return Error(ErrorKind::bad_input,
                    "rest cage segment " + std::to_string(i + 1) + " at " +
                        point_text(cage.vertex(i)) + " has no length; delete one of its two points",
@@ -343,31 +382,76 @@ std::optional<Error> length_fault(const Cage& cage) {
   return {};
 }
 
+/// "the rest cage", "hole 2 of the rest cage".
+std::string loop_name(Index loop) {
+  return loop == 0 ? "the rest cage" : "hole " + std::to_string(loop) + " of the rest cage";
+}
+
+std::optional<Error> size_fault(const Cage& cage) {
+  const Loops loops = cage.loops();
+  for (Index l = 0; l < loops.count(); ++l)
+    if (loops.length(l) < 3)
+      return Error(ErrorKind::bad_input, loop_name(l) + " has " + std::to_string(loops.length(l)) +
+                                             " segments; " + (l == 0 ? "a cage" : "a hole") +
+                                             " needs at least three");
+  return {};
+}
+
+std::optional<Error> crossing_fault(const FlatCage& flat) {
+  const auto crossing = self_crossing(flat);
+  if (!crossing) return {};
+  const Loops loops = PolygonView(flat).loops();
+  const Index first = loops.loop_of(crossing->first), second = loops.loop_of(crossing->second);
+  const std::string what =
+      first == second ? "the rest cage crosses itself"
+      : first == 0 ? "hole " + std::to_string(second) + " crosses the outer loop of the rest cage"
+                   : "holes " + std::to_string(first) + " and " + std::to_string(second) +
+                         " of the rest cage cross";
+  return Error(ErrorKind::bad_input,
+               what + ": segments " + std::to_string(flat.locations[crossing->first].segment + 1) +
+                   " and " + std::to_string(flat.locations[crossing->second].segment + 1) +
+                   " meet near " + point_text(crossing->point) + "; move one of their points",
+               crossing->point);
+}
+
+/// Rejects loops without area, and holes that are not inside the outer loop or are inside each
+/// other. The loops do not cross, so one point of each hole decides.
+std::optional<Error> nesting_fault(const FlatCage& flat) {
+  const PolygonView polygon = flat;
+  const double size = box_of(flat).diagonal();
+  for (Index l = 0; l < polygon.loops().count(); ++l) {
+    const Complex start = polygon.loop(l)[0];
+    if (!(std::abs(signed_area(polygon.loop(l))) > 1e-14 * size * size))
+      return Error(ErrorKind::bad_input,
+                   loop_name(l) + " has no area; move its points off a common line", start);
+    if (l > 0 && winding_number(polygon.loop(0), start) == 0)
+      return Error(ErrorKind::bad_input,
+                   "hole " + std::to_string(l) + " lies outside the rest cage, at " +
+                       point_text(start) + "; move it inside or delete it",
+                   start);
+    for (Index other = 1; other < polygon.loops().count(); ++other)
+      if (l > 0 && other != l && winding_number(polygon.loop(other), start) != 0)
+        return Error(ErrorKind::bad_input,
+                     "hole " + std::to_string(l) + " lies inside hole " + std::to_string(other) +
+                         ", at " + point_text(start) + "; delete one of them",
+                     start);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<Error> rest_fault(const Cage& cage) {
-  if (cage.size() < 3)
-    return Error(ErrorKind::bad_input, "the rest cage has " + std::to_string(cage.size()) +
-                                           " segments; a cage needs at least three");
+  if (auto fault = size_fault(cage)) return fault;
   if (auto fault = numbers_fault(cage)) return fault;
   if (auto fault = length_fault(cage)) return fault;
   for (Index i = 0; i < cage.size(); ++i)
     if (auto fault = speed_fault(cage, i)) return fault;
   if (auto fault = tip_fault(cage)) return fault;
   const FlatCage flat = flattened(cage);
-  if (const auto crossing = self_crossing(flat.points))
-    return Error(ErrorKind::bad_input,
-                 "the rest cage crosses itself: segments " +
-                     std::to_string(flat.locations[crossing->first].segment + 1) + " and " +
-                     std::to_string(flat.locations[crossing->second].segment + 1) + " meet near " +
-                     point_text(crossing->point) + "; move one of their points",
-                 crossing->point);
+  if (auto fault = crossing_fault(flat)) return fault;
   if (auto fault = gap_fault(flat)) return fault;
-  const Box box = box_of(flat.points);
-  if (!(std::abs(signed_area(flat.points)) > 1e-14 * box.diagonal() * box.diagonal()))
-    return Error(ErrorKind::bad_input,
-                 "the rest cage has no area; move its points off a common line", cage.vertex(0));
-  return {};
+  return nesting_fault(flat);
 }
 
 void check_rest_cage(const Cage& cage) {

@@ -1,33 +1,46 @@
-// The cage: a closed loop of Bezier segments, each with its own degree.
+// The cage: closed loops of Bezier segments, each with its own degree. The first loop is the outer
+// boundary of a domain, and the others are its holes.
 //
-// A polygon is a cage whose segments all have degree 1; it has no separate type.
+// A polygon can be a cage whose segments all have degree 1.
 #pragma once
 
 #include <string>
 
 #include "core/error.h"
 #include "core/geometry/curve.h"
+#include "core/geometry/polygon.h"
 
 namespace holomorph {
 
-/// A closed loop of Bezier segments. Segment i stores all of its control points except the last
-/// one, which segment i + 1 stores as its first. The number of points that a segment stores is
-/// therefore its degree. Value type.
+/// Closed loops of Bezier segments. Segment i stores all of its control points except the last one,
+/// which the next segment of its loop stores as its first. The number of points that a segment
+/// stores is therefore its degree. Value type.
 struct Cage {
-  std::vector<Points> segments;
+  std::vector<Points> segments;   ///< of the outer loop, and then of the holes
+  std::vector<Index> holes = {};  ///< the first segment of each hole
 
   bool operator==(const Cage&) const = default;
 
   Index size() const { return static_cast<Index>(segments.size()); }
+  Loops loops() const { return {size(), holes}; }
+  /// The next and the previous segment in the same loop. Also the next and previous vertex.
+  Index next(Index segment) const { return loops().next(segment); }
+  Index before(Index segment) const { return loops().before(segment); }
   int degree(Index segment) const { return static_cast<int>(segments[segment].size()); }
   /// Number of control points. A vertex that two segments share counts once.
   Index control_count() const;
-  /// The start vertex of segment i, where i is taken modulo size().
-  Complex vertex(Index i) const { return segments[(i % size() + size()) % size()][0]; }
+  /// The vertex at the start and at the end of segment i.
+  Complex vertex(Index i) const { return segments[i][0]; }
+  Complex end_vertex(Index i) const { return vertex(next(i)); }
   /// All degree(i) + 1 control points of segment i.
   Points controls(Index segment) const;
   /// Position of the first control point of segment i in the list of all control points.
   Index control_offset(Index segment) const;
+  /// Position of control point m, from 0 to degree(i), of segment i.
+  Index control_index(Index segment, int m) const {
+    return control_offset(m < degree(segment) ? segment : next(segment)) +
+           (m < degree(segment) ? m : 0);
+  }
 };
 
 /// An exact point on the boundary of the cage: the parameter t in [0, 1) on segment `segment`.
@@ -40,7 +53,7 @@ struct BoundaryPoint {
 Complex position_of(const Cage& cage, BoundaryPoint point);
 
 /// A cage with straight edges.
-Cage polygon_cage(std::span<const Complex> vertices);
+Cage polygon_cage(PolygonView polygon);
 
 /// The end points of the segments. If all degrees are 1, the cage is the polygon with these
 /// vertices.
@@ -49,20 +62,26 @@ Points vertices_of(const Cage& cage);
 /// All control points in file order: segment by segment, with shared vertices once.
 VectorXc controls_of(const Cage& cage);
 
+/// Throws Error unless both cages have the same numbers of segments, in every loop.
+void check_same_loops(const Cage& rest, const Cage& pose);
+
 /// `cage` with degrees raised where necessary: no segment has a lower degree than the corresponding
-/// segment of `other`. Throws Error if the two have different numbers of segments.
+/// segment of `other`. Throws Error if the two have different numbers of segments or holes.
 Cage elevated_to(const Cage& cage, const Cage& other);
 
-/// The loop as a polyline. Segments of degree 1 are sampled only at their start, all others at
+/// The loops as polylines. Segments of degree 1 are sampled only at their start, all others at
 /// `per_curve` parameters.
-Points outline_of(const Cage& cage, int per_curve = 16);
+Polygon outline_of(const Cage& cage, int per_curve = 16);
 
-/// The loop as a polygon, accurate to 5e-5 of the cage's diagonal: the vertices of the polygon and
+/// The loops as polygons, accurate to 5e-5 of the cage's diagonal: the vertices of the polygons and
 /// their locations on the cage. Straight segments are not divided. Curved segments are divided
 /// evenly in the parameter, into at most 1024 pieces.
-struct FlatCage {
-  Points points;
+struct FlatCage : Polygon {
   std::vector<BoundaryPoint> locations;
+
+  /// The point on the cage that belongs to a point on an edge of the polygon: parameter t on edge
+  /// i.
+  BoundaryPoint on_edge(Index i, double t) const;
 };
 FlatCage flattened(const Cage& cage);
 
@@ -70,19 +89,14 @@ FlatCage flattened(const Cage& cage);
 /// nearest_on_polygon.
 BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z);
 
-/// The same loop traversed backward from the same first vertex.
+/// The same cage with one loop, or with all loops, traversed backward from the same first vertex.
+Cage reversed(const Cage& cage, Index loop);
 Cage reversed(const Cage& cage);
 
-/// The same loop, traversed counter-clockwise.
-Cage counter_clockwise(const Cage& cage);
-
-/// Returns z unless it is a vertex of the counter-clockwise cage. For a vertex, returns an interior
-/// point at a distance of 1e-9 times the shorter edge. Derivatives that are infinite at the vertex
-/// are evaluated at this point instead.
+/// Returns z unless it is a vertex of the cage, whose inside must be on its left. For a vertex,
+/// returns an interior point at a distance of 1e-9 times the shorter edge. Derivatives that are
+/// infinite at the vertex are evaluated at this point instead.
 Complex point_inside_vertex(const Cage& cage, Complex z);
-
-/// For each control point of the cage, its index among the control points of the reversed cage.
-std::vector<Index> reversed_columns(const Cage& cage);
 
 /// Splits segment `segment` at parameter t in (0, 1) by de Casteljau's algorithm. The curve does
 /// not change.
@@ -100,8 +114,15 @@ double joint_parameter(const Cage& cage, Index vertex);
 /// Removes vertex `vertex`. Two straight segments become one. Curved segments are replaced as
 /// `refit` specifies, and `joint` is the parameter of the old vertex on the new curve. The rest
 /// cage and the posed cage must use the same `joint`, or the picture slides along the curve. The
-/// cage must have more than three segments.
+/// vertex's loop must have more than three segments.
 void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit = Refit::curve);
+
+/// Adds a hole with these segments after the other holes.
+void add_hole(Cage& cage, const std::vector<Points>& segments);
+/// Removes loop `loop` >= 1, which is a hole.
+void erase_hole(Cage& cage, Index loop);
+/// One loop as a cage of its own.
+Cage loop_of(const Cage& cage, Index loop);
 
 /// Whether every segment is a straight edge traversed at constant speed. Edges of raised degree
 /// count as straight.
@@ -110,11 +131,12 @@ bool is_straight(const Cage& cage);
 /// Whether segment `segment` is a straight edge traversed at constant speed.
 bool is_straight(const Cage& cage, Index segment);
 
-/// Throws Error unless the cage can be a rest cage. It must have at least three segments, finite
-/// coordinates and a nonzero area. It must not have a segment of zero length, a cusp, a needle
-/// below 1e-7 radians or a self-intersection. The message names the segments, and the error's
-/// `where` is the position. Needles, self-intersections and the area are tested on the `flattened`
-/// cage. Cost for ordinary loops: O(n log n) in the number of flattened points.
+/// Throws Error unless the cage can be a rest cage. Each loop must have at least three segments,
+/// finite coordinates and a nonzero area. It must not have a segment of zero length, a cusp, a
+/// needle below 1e-7 radians or a self-intersection. Holes must lie inside the outer loop and
+/// outside each other, without touching anything. The message names the segments, and the error's
+/// `where` is the position. Needles, intersections and areas are tested on the `flattened` cage.
+/// Cost for ordinary loops: O(n log n) in the number of flattened points.
 void check_rest_cage(const Cage& cage);
 
 /// The error that check_rest_cage would throw, or none if the cage is valid.

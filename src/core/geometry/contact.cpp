@@ -17,19 +17,31 @@ double rounding_of(const SegmentPolynomial& segment, Complex z, double s, double
   return kEpsilon * (4 * std::abs(z) + 6 * along);
 }
 
-Contact contact_at(std::span<const SegmentPolynomial> loop, Index segment, double t) {
-  const SegmentPolynomial& curve = loop[static_cast<size_t>(segment)];
+namespace {
+
+/// The segment that starts where segment e ends. It need not be the next one, because the last
+/// segment of a loop ends at the loop's start.
+size_t next_of(std::span<const SegmentPolynomial> loops, size_t e) {
+  if (e + 1 < loops.size() && loops[e + 1].start() == loops[e].end()) return e + 1;
+  const auto found = std::ranges::find(loops, loops[e].end(), &SegmentPolynomial::start);
+  return static_cast<size_t>(found - loops.begin()) % loops.size();
+}
+
+}  // namespace
+
+Contact contact_at(std::span<const SegmentPolynomial> loops, Index segment, double t) {
+  const SegmentPolynomial& curve = loops[static_cast<size_t>(segment)];
   if (t == 0) return {segment, 0, 1, curve.start()};
   return {segment, t, 1 - t, curve.fine_at({t, 1 - t})};
 }
 
-std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loop, Complex z,
+std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loops, Complex z,
                                   double outside) {
   std::optional<Contact> nearest;
   double distance = std::numeric_limits<double>::infinity();
   std::array<Root, kHighestDegree> storage;
-  for (size_t e = 0; e < loop.size(); ++e) {
-    const SegmentPolynomial& segment = loop[e];
+  for (size_t e = 0; e < loops.size(); ++e) {
+    const SegmentPolynomial& segment = loops[e];
     const double rounding = outside * rounding_of(segment, z, 0.5, 0.5);
     const Box& box = segment.box();
     if (z.real() < box.left - rounding || z.real() > box.right + rounding ||
@@ -43,8 +55,8 @@ std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loop, Compl
     }
     if (const double here = std::abs(z - segment.end()); here <= at_end && here < distance) {
       distance = here;
-      const size_t next = (e + 1) % loop.size();
-      nearest = Contact{static_cast<Index>(next), 0, 1, loop[next].start()};
+      const size_t next = next_of(loops, e);
+      nearest = Contact{static_cast<Index>(next), 0, 1, loops[next].start()};
     }
     const std::span<Root> roots(storage.data(), static_cast<size_t>(segment.degree()));
     segment.roots(z, roots);

@@ -10,7 +10,7 @@
 
 namespace holomorph {
 
-/// A point on a closed loop of segments.
+/// A point on closed loops of segments.
 struct Contact {
   Index segment = 0;
   double s = 0, q = 1;  ///< the parameter t and 1 - t, each to full relative precision
@@ -20,14 +20,14 @@ struct Contact {
 };
 
 /// Returns the boundary point nearest to z if z is on the boundary up to the rounding error of z
-/// and of the curves, which is about 4 eps |z|. For points outside the loop, this tolerance is
+/// and of the curves, which is about 4 eps |z|. For points outside, this tolerance is
 /// multiplied by `outside`. Returns nullopt if the boundary is farther away. Cost: 3 ns per
 /// straight segment, plus the roots for each curved segment whose box contains z.
-std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loop, Complex z,
+std::optional<Contact> contact_of(std::span<const SegmentPolynomial> loops, Complex z,
                                   double outside = 1);
 
 /// The contact at parameter t in [0, 1) of a segment.
-Contact contact_at(std::span<const SegmentPolynomial> loop, Index segment, double t);
+Contact contact_at(std::span<const SegmentPolynomial> loops, Index segment, double t);
 
 /// How far rounding can move a point z that is close to a segment, near the parameter s = 1 - q.
 double rounding_of(const SegmentPolynomial& segment, Complex z, double s, double q);

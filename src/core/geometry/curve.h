@@ -1,7 +1,6 @@
-// Bezier segments and polylines, which make up cages, strokes and outlines.
+// Bezier segments, which make up cages.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "core/types.h"
@@ -37,41 +36,5 @@ Points fitted(std::span<const Complex> samples, std::span<const double> paramete
 double inner_angle(Complex out, Complex in);
 /// The unit vector that bisects the inner angle.
 Complex interior_bisector(Complex out, Complex in);
-
-/// Signed area of a closed polygon: positive when counter-clockwise.
-double signed_area(std::span<const Complex> polygon);
-
-/// Length of a closed polygon.
-double perimeter(std::span<const Complex> polygon);
-
-/// The winding number of a closed polygon around z. Points on the boundary may count as inside or
-/// outside.
-int winding_number(std::span<const Complex> polygon, Complex z);
-
-/// The nearest point on a polyline: the edge from vertex `edge` to the next vertex, the parameter
-/// on this edge, the position and the distance.
-struct NearestPoint {
-  Index edge = 0;
-  double t = 0.0;
-  Complex point;
-  double distance = 0.0;
-};
-NearestPoint nearest_on_segment(Complex a, Complex b, Complex z);
-NearestPoint nearest_on_polygon(std::span<const Complex> polygon, Complex z);
-
-/// A self-intersection of a closed polygon: two edges that touch or cross, and a point on both.
-struct Crossing {
-  Index first = 0, second = 0;
-  Complex point;
-};
-
-/// The first self-crossing of a closed polygon, or none when it is simple. Neighboring edges count
-/// as crossing only if they overlap. Method: a sweep over boxes sorted by x. Cost: O(n log n) for
-/// ordinary outlines.
-std::optional<Crossing> self_crossing(std::span<const Complex> polygon);
-
-/// The turning number of a closed polygon: the sum of its exterior angles over 2 pi. Edges of zero
-/// length are skipped.
-double turning_number(std::span<const Complex> polygon);
 
 }  // namespace holomorph

@@ -73,7 +73,7 @@ Cage loop_over(const Points& outline, const std::set<size_t>& breaks) {
 
 /// The segments that cut off kept points or cross other segments.
 std::set<Index> bad_segments(const Cage& cage, const Points& kept) {
-  Points flat = outline_of(cage, kFlat);
+  const Points flat = outline_of(cage, kFlat).points;
   std::vector<Index> segment;
   for (Index e = 0; e < cage.size(); ++e)
     segment.insert(segment.end(), cage.degree(e) == 1 ? 1 : kFlat, e);
@@ -90,7 +90,8 @@ std::set<Index> bad_segments(const Cage& cage, const Points& kept) {
 }  // namespace
 
 Cage curves_around(const Points& outline, const Points& kept, int wanted) {
-  const Points polygon = simplified_around(outline, kept, wanted);
+  // Joints must be points of the outline.
+  const Points polygon = simplified_around(outline, kept, wanted, Simplified::subset);
   std::set<size_t> breaks = first_breaks(outline, polygon);
   constexpr int kRounds = 12;
   for (int round = 0; round < kRounds; ++round) {

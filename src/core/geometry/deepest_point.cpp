@@ -4,7 +4,7 @@
 
 #include "core/arithmetic.h"
 #include "core/error.h"
-#include "core/geometry/curve.h"
+#include "core/geometry/polygon.h"
 
 namespace holomorph {
 namespace {

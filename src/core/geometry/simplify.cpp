@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <queue>
 
+#include "core/geometry/orientation.h"
+#include "core/geometry/polyline.h"
+
 namespace holomorph {
 namespace {
 
@@ -14,10 +17,23 @@ bool in_triangle(Complex a, Complex b, Complex c, Complex z) {
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
+/// A simple polygon without its vertices on straight lines, up to rounding.
+Points without_straight_vertices(const Points& polygon) {
+  constexpr double kRounding = 1e-12;
+  const double size = box_of(polygon).diagonal();
+  Points kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Complex a = kept.empty() ? polygon.back() : kept.back(), b = polygon[i],
+                  c = polygon[(i + 1) % polygon.size()];
+    if (std::abs(cross(b - a, c - a)) > kRounding * size * std::abs(c - a)) kept.push_back(b);
+  }
+  return kept;
+}
+
 class Simplifier {
  public:
-  Simplifier(std::span<const Complex> polygon, std::span<const Complex> kept)
-      : kept_(kept.begin(), kept.end()), left_(static_cast<int>(polygon.size())) {
+  Simplifier(std::span<const Complex> polygon, std::span<const Complex> kept, Simplified kind)
+      : kept_(kept.begin(), kept.end()), kind_(kind), left_(static_cast<int>(polygon.size())) {
     const int n = left_;
     for (int i = 0; i < n; ++i)
       nodes_.push_back({polygon[i], (i + n - 1) % n, (i + 1) % n, 0, true});
@@ -66,7 +82,7 @@ class Simplifier {
     const Complex a = at(nodes_[i].previous), b = at(i), c = at(j), d = at(nodes_[j].next);
     const double turn = cross(b - a, c - d);
     if (nodes_[j].next == nodes_[i].previous || cross(b - a, c - b) <= 0 ||
-        cross(c - b, d - c) <= 0 || turn <= 0)
+        cross(c - b, d - c) <= 0 || turn >= 0)
       return {};
     const double t = cross(c - b, c - d) / turn;
     return b + t * (b - a);
@@ -77,6 +93,7 @@ class Simplifier {
     ++node.version;
     const Complex a = at(node.previous), c = at(node.next);
     queue_.push({std::abs(cross(node.z - a, c - a)), i, node.version, false});
+    if (kind_ == Simplified::subset) return;
     if (const auto corner = corner_of(i))
       queue_.push(
           {std::abs(cross(*corner - node.z, at(node.next) - node.z)), i, node.version, true});
@@ -153,17 +170,50 @@ class Simplifier {
 
   std::vector<Node> nodes_;
   Points kept_;
+  Simplified kind_;
   std::priority_queue<Change> queue_;
   int left_;
 };
 
 }  // namespace
 
-Points simplified_around(std::span<const Complex> polygon, std::span<const Complex> kept,
-                         int count) {
+Points simplified_around(std::span<const Complex> polygon, std::span<const Complex> kept, int count,
+                         Simplified kind) {
   if (static_cast<int>(polygon.size()) <= std::max(count, 3))
     return {polygon.begin(), polygon.end()};
-  return Simplifier(polygon, kept).run(count);
+  return Simplifier(polygon, kept, kind).run(count);
+}
+
+Cage thinned_around(const Cage& cage, double tolerance) {
+  if (!is_straight(cage)) return oriented(cage);
+  const Cage whole = oriented(cage);
+  const Points outer = without_straight_vertices(vertices_of(loop_of(whole, 0)));
+  const Polyline boundary(outer, true);
+  const auto is_near = [&](const Points& polygon) {
+    const Polyline other(polygon, true);
+    return std::max(one_sided_distance(other, boundary), one_sided_distance(boundary, other)) <=
+           tolerance;
+  };
+  Points best = outer;
+  int fewest = 3, most = static_cast<int>(outer.size());
+  while (fewest < most) {
+    const int middle = (fewest + most) / 2;
+    Points polygon = simplified_around(outer, outer, middle);
+    // Fewer vertices than that may be impossible.
+    const int reached = static_cast<int>(polygon.size());
+    if (is_near(polygon)) {
+      most = std::min(middle, reached);
+      best = std::move(polygon);
+    } else {
+      fewest = middle + 1;
+    }
+    if (reached > middle) fewest = std::max(fewest, reached);
+  }
+  Cage result = polygon_cage(best);
+  for (Index l = 1; l < whole.loops().count(); ++l)
+    add_hole(result,
+             polygon_cage(without_straight_vertices(vertices_of(loop_of(whole, l)))).segments);
+  return result;
 }
 
 }  // namespace holomorph

@@ -7,6 +7,7 @@
 // accelerated locally injective shape deformation"), which are f_z and f_zbar, it is not.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/types.h"
@@ -24,7 +25,7 @@ inline Complex exp_minus_one(Complex l) {
 struct IsometricEnergy {
   enum class Form {
     plain,        ///< e
-    exponential,  ///< (exp(s (e - 2)) - 1) / s + 2
+    exponential,  ///< (exp(s (e - 2)) - 1) / s + 2, but a parabola where s (e - 2) > 30
     power         ///< 2 (e / 2)^s
   };
   Form form = Form::plain;
@@ -62,10 +63,14 @@ struct IsometricEnergy {
   }
 
  private:
+  static constexpr double kParabola = 30;  ///< before exp overflows at the start of a solve
   double formed(double e) const {
+    const double y = s * (e - 2), beyond = y - kParabola;
     switch (form) {
       case Form::exponential:
-        return 2 + std::expm1(s * (e - 2)) / s;
+        if (beyond > 0)
+          return 2 + (std::exp(kParabola) * (1 + beyond + 0.5 * beyond * beyond) - 1) / s;
+        return 2 + std::expm1(y) / s;
       case Form::power:
         return 2 * std::pow(e / 2, s);
       case Form::plain:
@@ -74,9 +79,10 @@ struct IsometricEnergy {
     return e;
   }
   double slope(double e) const {
+    const double y = s * (e - 2);
     switch (form) {
       case Form::exponential:
-        return std::exp(s * (e - 2));
+        return y > kParabola ? std::exp(kParabola) * (1 + y - kParabola) : std::exp(y);
       case Form::power:
         return s * std::pow(e / 2, s - 1);
       case Form::plain:
@@ -87,7 +93,7 @@ struct IsometricEnergy {
   double curvature(double e) const {
     switch (form) {
       case Form::exponential:
-        return s * std::exp(s * (e - 2));
+        return s * std::exp(std::min(s * (e - 2), kParabola));
       case Form::power:
         return 0.5 * s * (s - 1) * std::pow(e / 2, s - 2);
       case Form::plain:

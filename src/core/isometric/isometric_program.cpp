@@ -21,19 +21,21 @@ struct State {
   VectorXc phi, psi;  ///< weight * e^l and weight * nu e^l at the nodes of the paths
   VectorXc grown;     ///< weight * (e^l - 1)
   VectorXc offsets;   ///< c
+  VectorXc gaps;      ///< g
   Complex move;
   VectorXc l_off, nu_off;  ///< deviations of l and nu at the frames
-  double energy = 0, total = 0;
+  double energy = 0, barrier = 0, total = 0;
 };
 
-class Solver {
+class IsometricSolver {
  public:
-  Solver(const IsometricSystem& system, const IsometricTarget& target,
-         const IsometricSettings& settings)
+  IsometricSolver(const IsometricSystem& system, const IsometricTarget& target,
+                  const IsometricSettings& settings)
       : system_(system), target_(target), settings_(settings), n_(system.size()) {
     check(target.stations.size() == system.station_weights.size() &&
               target.frames.size() == system.frames.rows(),
           "isometric program: sizes agree");
+    check(!system.barrier || settings.barrier > 0, "isometric program: the barrier has a weight");
     all_ = system.station_weights.sum();
   }
 
@@ -52,10 +54,14 @@ class Solver {
         return s;
       }
       s.energy += system_.weights[i] * system_.energy.value(s.u[i], s.a[i], s.b[i]);
+      if (system_.barrier)
+        s.barrier +=
+            settings_.barrier * system_.weights[i] * system_.barrier->value(s.u[i], s.a[i], s.b[i]);
     }
-    s.total = s.energy;
+    s.total = s.energy + s.barrier;
+    if (std::isinf(s.total)) return s;
     const VectorXc xl = complex_of(l), xnu = complex_of(nu);
-    if (target_.stations.size() > 0) {
+    if (has_paths()) {
       MatrixXc both(n_, 2);
       both << xl, xnu;
       const MatrixXc at_nodes = matrix_product(system_.nodes, both);
@@ -66,6 +72,7 @@ class Solver {
       set_offsets(s);
       for (Index j = 0; j < s.offsets.size(); ++j)
         s.total += settings_.penalty * system_.station_weights[j] * std::norm(s.offsets[j]);
+      s.total += system_.closing * s.gaps.squaredNorm();
     }
     if (target_.frames.size() > 0) {
       s.l_off = system_.frames * xl - target_.frames;
@@ -83,35 +90,58 @@ class Solver {
     gradient_.setZero(N);
     hessian_.setZero(N, N);
     add_energy(s);
-    if (target_.stations.size() > 0) add_stations(s);
+    if (has_paths()) add_paths(s);
     if (target_.frames.size() > 0) add_frames(s);
     hessian_.diagonal().array() += kRidge;
   }
 
   IsometricSolution run(VectorXd start) {
     State s = at(std::move(start));
-    check(std::isfinite(s.total), "isometric program: |nu| < 1 at the start");
+    check(std::isfinite(s.total), "isometric program: the start is inside");
     IsometricSolution out;
     for (; out.iterations < settings_.iterations; ++out.iterations) {
       throw_if_stopped(settings_.stop);
       linearize(s);
-      if (!factor()) break;
+      if (!factor(s)) break;
       const VectorXd d = -cholesky_.solve(gradient_);
       const double slope = gradient_.dot(d);
       if (-slope <= settings_.tolerance * s.total) {
         out.converged = true;
         break;
       }
+      near_ = -slope <= kNear * s.total;
       if (!advance(d, slope, s)) {
         out.converged = true;  // rounding prevents any further decrease
         break;
       }
     }
-    out.x = s.x;
-    out.offsets = s.offsets;
-    out.move = s.move;
-    out.energy = s.energy;
-    out.total = s.total;
+    report(s, out);
+    return out;
+  }
+
+  /// The smallest changes that close the gaps, until they are `small`.
+  IsometricSolution closed(VectorXd start, double small) {
+    State s = at(std::move(start));
+    check(std::isfinite(s.total), "isometric program: the start is inside");
+    constexpr int kSteps = 8;
+    for (int step = 0; step < kSteps && s.gaps.cwiseAbs().maxCoeff() > small; ++step) {
+      set_rows(s);
+      const Index count = 2 * s.gaps.size();
+      const MatrixXd rows = rows_.rightCols(count);
+      const VectorXd d =
+          -rows * (rows.transpose() * rows).ldlt().solve(VectorXd(scaled(s).tail(count)));
+      double part = longest_step(s, d);
+      State next = at(s.x + part * d);
+      constexpr double kShortest = 1e-3;
+      const auto is_better = [&] {
+        return std::isfinite(next.total) && next.gaps.norm() < s.gaps.norm();
+      };
+      for (; !is_better() && part > kShortest; part *= 0.5) next = at(s.x + 0.5 * part * d);
+      if (!is_better()) break;
+      s = std::move(next);
+    }
+    IsometricSolution out;
+    report(s, out);
     return out;
   }
 
@@ -123,6 +153,20 @@ class Solver {
 
  private:
   static constexpr double kRidge = 1e-9;
+  static constexpr double kNear = 1e-2;  ///< a relative decrement
+
+  void report(const State& s, IsometricSolution& out) const {
+    out.x = s.x;
+    out.step = step_;
+    out.offsets = s.offsets;
+    out.gaps = s.gaps;
+    out.move = s.move;
+    out.energy = s.energy / system_.weights.sum();
+    out.total = s.total;
+    out.barrier = s.barrier;
+  }
+
+  bool has_paths() const { return target_.stations.size() > 0 || !system_.paths.loops().empty(); }
 
   void set_offsets(State& s) const {
     const auto& pieces = system_.paths.pieces();
@@ -133,8 +177,13 @@ class Solver {
       f[e] = s.grown.segment(first, kNodes).sum() + std::conj(s.psi.segment(first, kNodes).sum());
       if (pieces[e].parent >= 0) f[e] += f[static_cast<size_t>(pieces[e].parent)];
     }
+    const std::vector<Index>& loops = system_.paths.loops();
+    s.gaps.resize(static_cast<Index>(loops.size()));
+    for (size_t h = 0; h < loops.size(); ++h)
+      s.gaps[static_cast<Index>(h)] = f[static_cast<size_t>(loops[h])];
     const std::vector<Index>& ends = system_.paths.ends();
     s.offsets.resize(static_cast<Index>(ends.size()));
+    if (ends.empty()) return;
     Complex mean = 0;
     for (size_t j = 0; j < ends.size(); ++j) {
       const Index i = static_cast<Index>(j);
@@ -167,7 +216,8 @@ class Solver {
     work.mixed.resize(rows, m);
     VectorXd gu(m), ga(m), gb(m);
     for (Index i = 0; i < m; ++i) {
-      const auto e = system_.energy.with_derivatives(s.u[i], s.a[i], s.b[i]);
+      auto e = system_.energy.with_derivatives(s.u[i], s.a[i], s.b[i]);
+      if (system_.barrier) system_.barrier->add_to(e, settings_.barrier, s.u[i], s.a[i], s.b[i]);
       const double w = system_.weights[i];
       gu[i] = w * e.gradient[0];
       ga[i] = w * e.gradient[1];
@@ -191,7 +241,8 @@ class Solver {
     hessian_ += work.sum.template cast<double>();
   }
 
-  /// Sets the rows of J: 4n x 2 stations, real and imaginary parts of sqrt(penalty s) c.
+  /// Sets the rows of J: 4n x 2 (stations + loops), real and imaginary parts of sqrt(penalty s) c,
+  /// and of sqrt(closing) g.
   void set_rows(const State& s) {
     const auto& pieces = system_.paths.pieces();
     const Index count = static_cast<Index>(pieces.size());
@@ -216,10 +267,12 @@ class Solver {
         add(s.psi[k], re, im, e, psi);
       }
     }
-    const std::vector<Index>& ends = system_.paths.ends();
+    std::vector<Index> ends = system_.paths.ends();
     const Index stations = static_cast<Index>(ends.size());
-    rows_.setZero(4 * n_, 2 * stations);
-    for (Index j = 0; j < stations; ++j) {
+    ends.insert(ends.end(), system_.paths.loops().begin(), system_.paths.loops().end());
+    const Index all = static_cast<Index>(ends.size());
+    rows_.setZero(4 * n_, 2 * all);
+    for (Index j = 0; j < all; ++j) {
       const Index end = ends[static_cast<size_t>(j)];
       if (end < 0) continue;
       auto re = rows_.col(2 * j), im = rows_.col(2 * j + 1);
@@ -242,30 +295,40 @@ class Solver {
       rows_.col(2 * j) = scale * (rows_.col(2 * j) - mean_re);
       rows_.col(2 * j + 1) = scale * (rows_.col(2 * j + 1) - mean_im);
     }
+    rows_.rightCols(2 * (all - stations)) *= std::sqrt(system_.closing);
   }
 
-  /// sqrt(penalty s) c as real numbers, in the order of the rows.
-  VectorXd scaled(const VectorXc& offsets) const {
-    VectorXd real(2 * offsets.size());
-    for (Index j = 0; j < offsets.size(); ++j) {
+  /// sqrt(penalty s) c and sqrt(closing) g as real numbers, in the order of the rows.
+  VectorXd scaled(const State& s) const {
+    const Index stations = s.offsets.size();
+    VectorXd real(2 * (stations + s.gaps.size()));
+    for (Index j = 0; j < stations; ++j) {
       const double scale = std::sqrt(settings_.penalty * system_.station_weights[j]);
-      real[2 * j] = scale * offsets[j].real();
-      real[2 * j + 1] = scale * offsets[j].imag();
+      real[2 * j] = scale * s.offsets[j].real();
+      real[2 * j + 1] = scale * s.offsets[j].imag();
+    }
+    for (Index h = 0; h < s.gaps.size(); ++h) {
+      real[2 * (stations + h)] = std::sqrt(system_.closing) * s.gaps[h].real();
+      real[2 * (stations + h) + 1] = std::sqrt(system_.closing) * s.gaps[h].imag();
     }
     return real;
   }
 
-  void add_stations(const State& s) {
+  void add_paths(const State& s) {
     set_rows(s);
-    gradient_ += 2 * product(rows_, scaled(s.offsets));
+    gradient_ += 2 * product(rows_, scaled(s));
     const MatrixXd columns = std::sqrt(2.0) * rows_;
     add_gram(columns, columns.cols(), 0, hessian_);
-    if (s.offsets.cwiseAbs().maxCoeff() > settings_.far) add_curvature(s);
   }
 
-  /// Adds the positive part of 2 penalty s Re(conj(c) c''). At each node of a path, the second
-  /// derivative of f is w e^l dl^2 + conj(w e^l (nu dl^2 + 2 dl dnu)).
-  void add_curvature(const State& s) {
+  /// The second derivatives of f at a node of a path, times the pull of the stations behind it:
+  /// Re(alpha dl^2 + 2 beta dl dnu) is what they add to the value.
+  struct Bend {
+    Complex alpha, beta;
+  };
+
+  /// From f'' = w e^l dl^2 + conj(w e^l (nu dl^2 + 2 dl dnu)), and 2 penalty s Re(conj(c) c'').
+  std::vector<Bend> bends(const State& s) const {
     const auto& pieces = system_.paths.pieces();
     const std::vector<Index>& ends = system_.paths.ends();
     // The pull on each piece: the sum of s conj(c) over the stations behind it. The mean of the
@@ -278,31 +341,76 @@ class Solver {
                                               std::conj(s.offsets[static_cast<Index>(j)]);
     for (size_t e = pieces.size(); e-- > 0;)
       if (pieces[e].parent >= 0) pull[static_cast<size_t>(pieces[e].parent)] += pull[e];
-    constexpr Index kNodes = PathTree::kNodes;
-    MatrixXd columns(4 * n_, 2 * s.phi.size());
-    Index used = 0;
+    std::vector<Bend> result;
     for (Index k = 0; k < s.phi.size(); ++k) {
-      const Complex g = pull[static_cast<size_t>(k / kNodes)];
-      const Complex alpha = g * s.phi[k] + std::conj(g) * s.psi[k], beta = std::conj(g) * s.phi[k];
-      // Re(alpha dl^2 + 2 beta dl dnu) as a form in (Re dl, Im dl, Re dnu, Im dnu). Its eigenvalues
-      // come in pairs of opposite sign.
+      const Complex g = pull[static_cast<size_t>(k / PathTree::kNodes)];
+      result.push_back({g * s.phi[k] + std::conj(g) * s.psi[k], std::conj(g) * s.phi[k]});
+    }
+    return result;
+  }
+
+  /// The sum of all second derivatives, as the lower triangle of a matrix.
+  MatrixXd second_derivatives(const std::vector<Bend>& bends) const {
+    const Index count = static_cast<Index>(bends.size());
+    const Eigen::MatrixXf re = system_.nodes_by_column.re.cast<float>(),
+                          im = system_.nodes_by_column.im.cast<float>();
+    // The real and imaginary parts of the sum of factor b b^T over the nodes.
+    Eigen::MatrixXf scaled_re(n_, count), scaled_im(n_, count);
+    const auto sum = [&](auto factor, Eigen::MatrixXf& sum_re, Eigen::MatrixXf& sum_im) {
+      for (Index k = 0; k < count; ++k) {
+        const std::complex<float> c(factor(bends[static_cast<size_t>(k)]));
+        scaled_re.col(k) = c.real() * re.col(k) - c.imag() * im.col(k);
+        scaled_im.col(k) = c.real() * im.col(k) + c.imag() * re.col(k);
+      }
+      sum_re.setZero(n_, n_);
+      sum_im.setZero(n_, n_);
+      add_product(im, scaled_im, count, 0, 0, sum_re);
+      sum_re = -sum_re;
+      add_product(re, scaled_re, count, 0, 0, sum_re);
+      add_product(re, scaled_im, count, 0, 0, sum_im);
+      add_product(im, scaled_re, count, 0, 0, sum_im);
+    };
+    MatrixXd result = MatrixXd::Zero(4 * n_, 4 * n_);
+    Eigen::MatrixXf sum_re, sum_im;
+    sum([](const Bend& bend) { return bend.alpha; }, sum_re, sum_im);
+    result.block(0, 0, n_, n_) = sum_re.cast<double>();
+    result.block(n_, 0, n_, n_) = -sum_im.cast<double>();
+    result.block(n_, n_, n_, n_) = -sum_re.cast<double>();
+    sum([](const Bend& bend) { return bend.beta; }, sum_re, sum_im);
+    result.block(2 * n_, 0, n_, n_) = sum_re.cast<double>();
+    result.block(2 * n_, n_, n_, n_) = -sum_im.cast<double>();
+    result.block(3 * n_, 0, n_, n_) = -sum_im.cast<double>();
+    result.block(3 * n_, n_, n_, n_) = -sum_re.cast<double>();
+    return result;
+  }
+
+  /// The sum of the positive parts of the second derivatives at each node.
+  MatrixXd convex_part(const std::vector<Bend>& bends) const {
+    Eigen::MatrixXf columns(4 * n_, 2 * static_cast<Index>(bends.size()));
+    Index used = 0;
+    for (size_t k = 0; k < bends.size(); ++k) {
+      // A form in (Re dl, Im dl, Re dnu, Im dnu). Its eigenvalues come in pairs of opposite sign.
       Eigen::Matrix4d form;
-      const double ar = alpha.real(), ai = alpha.imag(), br = beta.real(), bi = beta.imag();
+      const double ar = bends[k].alpha.real(), ai = bends[k].alpha.imag(),
+                   br = bends[k].beta.real(), bi = bends[k].beta.imag();
       form << ar, -ai, br, -bi, -ai, -ar, -bi, -br, br, -bi, 0, 0, -bi, -br, 0, 0;
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(form);
+      const auto re = system_.nodes_by_column.re.col(static_cast<Index>(k)),
+                 im = system_.nodes_by_column.im.col(static_cast<Index>(k));
       for (int i = 2; i < 4; ++i) {
         const double value = eigen.eigenvalues()[i];
         if (!(value > 0)) continue;
         const Eigen::Vector4d v = std::sqrt(value) * eigen.eigenvectors().col(i);
-        const auto re = system_.nodes_by_column.re.col(k), im = system_.nodes_by_column.im.col(k);
         auto column = columns.col(used++);
-        column.segment(0, n_) = v[0] * re + v[1] * im;
-        column.segment(n_, n_) = -v[0] * im + v[1] * re;
-        column.segment(2 * n_, n_) = v[2] * re + v[3] * im;
-        column.segment(3 * n_, n_) = -v[2] * im + v[3] * re;
+        column.segment(0, n_) = (v[0] * re + v[1] * im).cast<float>();
+        column.segment(n_, n_) = (-v[0] * im + v[1] * re).cast<float>();
+        column.segment(2 * n_, n_) = (v[2] * re + v[3] * im).cast<float>();
+        column.segment(3 * n_, n_) = (-v[2] * im + v[3] * re).cast<float>();
       }
     }
-    add_gram(columns, used, 0, hessian_);
+    Eigen::MatrixXf sum = Eigen::MatrixXf::Zero(4 * n_, 4 * n_);
+    add_gram(columns, used, 0, sum);
+    return sum.cast<double>();
   }
 
   void add_frames(const State& s) {
@@ -323,8 +431,28 @@ class Solver {
     }
   }
 
-  bool factor() {
+  /// Factors the matrix, with the second derivatives of pins that miss by far. Near the minimum,
+  /// they are exact if that is definite. Otherwise, their convex part is used, less as much of the
+  /// concave part as possible: the more of it, the longer the steps are.
+  bool factor(const State& s) {
     if (!hessian_.allFinite()) return false;
+    if (s.offsets.size() == 0 || !(s.offsets.cwiseAbs().maxCoeff() > settings_.far))
+      return factor();
+    const std::vector<Bend> bent = bends(s);
+    if (!near_) {
+      hessian_ += convex_part(bent);
+      return factor();
+    }
+    const MatrixXd exact = second_derivatives(bent);
+    if (cholesky_.factor(hessian_ + exact)) return true;
+    const MatrixXd convex = convex_part(bent);
+    for (const double part : {0.9, 0.7, 0.4})
+      if (cholesky_.factor(hessian_ + (1 - part) * convex + part * exact)) return true;
+    hessian_ += convex;
+    return factor();
+  }
+
+  bool factor() {
     double ridge = 1e-12 * hessian_.diagonal().maxCoeff();
     for (int attempt = 0; attempt < 8; ++attempt, ridge *= 10) {
       if (cholesky_.factor(hessian_)) return true;
@@ -355,16 +483,17 @@ class Solver {
   /// Takes a step along d. Returns false if the value cannot be decreased.
   bool advance(const VectorXd& d, double slope, State& s) {
     constexpr double kArmijo = 1e-4, kShortest = 1e-10;
-    const VectorXd along = s.offsets.size() > 0 ? transposed_product(rows_, d) : VectorXd();
+    const VectorXd along = has_paths() ? transposed_product(rows_, d) : VectorXd();
     for (double step = longest_step(s, d); step > kShortest; step *= 0.5) {
       State next = at(s.x + step * d);
-      if (std::isfinite(next.total) && s.offsets.size() > 0) {
-        const VectorXd bent = scaled(next.offsets) - scaled(s.offsets) - step * along;
+      if (std::isfinite(next.total) && has_paths()) {
+        const VectorXd bent = scaled(next) - scaled(s) - step * along;
         State better = at(next.x - 2 * cholesky_.solve(product(rows_, bent)));
         if (better.total < next.total) next = std::move(better);
       }
       if (next.total <= s.total + kArmijo * step * slope) {
         s = std::move(next);
+        step_ = step;
         return true;
       }
     }
@@ -378,6 +507,8 @@ class Solver {
   double all_ = 0;  ///< sum of the stations' weights
   VectorXd gradient_;
   MatrixXd hessian_, rows_;
+  bool near_ = false;  ///< the minimum
+  double step_ = 1;    ///< the part of the last Newton step that was taken
   Workspace<double> double_;
   Workspace<float> single_;
   Cholesky cholesky_;
@@ -387,18 +518,35 @@ class Solver {
 
 IsometricSolution minimized(const IsometricSystem& system, const IsometricTarget& target,
                             const IsometricSettings& settings, VectorXd start) {
-  return Solver(system, target, settings).run(std::move(start));
+  return IsometricSolver(system, target, settings).run(std::move(start));
+}
+
+IsometricSolution closed(const IsometricSystem& system, const IsometricTarget& target,
+                         const IsometricSettings& settings, VectorXd x, double small) {
+  return IsometricSolver(system, target, settings).closed(std::move(x), small);
+}
+
+bool is_inside(const IsometricSystem& system, const VectorXd& x) {
+  const VectorXd u = transposed_product(system.re, x.head(2 * system.size())),
+                 a = transposed_product(system.re, x.tail(2 * system.size())),
+                 b = transposed_product(system.im, x.tail(2 * system.size()));
+  for (Index i = 0; i < u.size(); ++i) {
+    if (!(a[i] * a[i] + b[i] * b[i] < 1)) return false;
+    if (!std::isfinite(system.energy.value(u[i], a[i], b[i]))) return false;
+    if (system.barrier && std::isinf(system.barrier->value(u[i], a[i], b[i]))) return false;
+  }
+  return true;
 }
 
 double isometric_value(const IsometricSystem& system, const IsometricTarget& target,
                        const IsometricSettings& settings, const VectorXd& x) {
-  return Solver(system, target, settings).at(x).total;
+  return IsometricSolver(system, target, settings).at(x).total;
 }
 
 IsometricDerivatives isometric_derivatives(const IsometricSystem& system,
                                            const IsometricTarget& target,
                                            const IsometricSettings& settings, const VectorXd& x) {
-  return Solver(system, target, settings).derivatives(x);
+  return IsometricSolver(system, target, settings).derivatives(x);
 }
 
 }  // namespace holomorph

@@ -1,5 +1,5 @@
-// Both functions are multiplied with each matrix at once, because reading the matrices takes most
-// of the time.
+// Each matrix is multiplied with l and nu at once, because reading the matrices takes most of the
+// time.
 #include "core/isometric/mesh_display.h"
 
 #include "core/arithmetic.h"

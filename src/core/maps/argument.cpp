@@ -3,6 +3,7 @@
 #include "core/maps/argument.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "core/error.h"
@@ -70,10 +71,9 @@ VectorXd summed(double first, const VectorXd& steps) {
   return theta;
 }
 
-}  // namespace
-
-VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& values,
-                           const std::vector<Zero>& zeros) {
+/// The argument along a single loop.
+VectorXd loop_argument(std::span<const Complex> samples, const VectorXc& values,
+                       const std::vector<Zero>& zeros) {
   const Index m = values.size();
   check(m > 2 && static_cast<Index>(samples.size()) == m, "boundary_argument: sizes agree");
   VectorXd steps(m);
@@ -120,6 +120,61 @@ VectorXd boundary_argument(std::span<const Complex> samples, const VectorXc& val
     least = choice == 0 ? kClearly * spread : spread;
   }
   return best;
+}
+
+/// The loop whose samples are nearest to z.
+Index nearest_loop(PolygonView samples, Complex z) {
+  Index nearest = 0;
+  for (Index i = 1; i < samples.size(); ++i)
+    if (std::norm(samples[i] - z) < std::norm(samples[nearest] - z)) nearest = i;
+  return samples.loops().loop_of(nearest);
+}
+
+/// Adds whole turns to the argument of the loops until it is continuous from each loop to the
+/// nearest one before it.
+void join_loops(PolygonView samples, VectorXd& theta) {
+  const Loops loops = samples.loops();
+  std::vector<char> joined(static_cast<size_t>(loops.count()), 0);
+  joined[0] = 1;
+  for (Index round = 1; round < loops.count(); ++round) {
+    Index from = 0, to = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < samples.size(); ++i)
+      for (Index j = 0; j < samples.size(); ++j)
+        if (joined[static_cast<size_t>(loops.loop_of(i))] &&
+            !joined[static_cast<size_t>(loops.loop_of(j))])
+          if (const double gap = std::norm(samples[i] - samples[j]); gap < least)
+            least = gap, from = i, to = j;
+    const Index loop = loops.loop_of(to);
+    const double turns = std::round((theta[from] - theta[to]) / (2 * kPi));
+    theta.segment(loops.first(loop), loops.length(loop)).array() += 2 * kPi * turns;
+    joined[static_cast<size_t>(loop)] = 1;
+  }
+}
+
+}  // namespace
+
+bool winds_around_zero(PolygonView samples, const VectorXc& values) {
+  const Loops loops = samples.loops();
+  for (Index l = 0; l < loops.count(); ++l)
+    if (winding_around_zero(values.segment(loops.first(l), loops.length(l))) != 0) return true;
+  return false;
+}
+
+VectorXd boundary_argument(PolygonView samples, const VectorXc& values,
+                           const std::vector<Zero>& zeros) {
+  const Loops loops = samples.loops();
+  check(samples.size() == values.size(), "boundary_argument: sizes agree");
+  std::vector<std::vector<Zero>> of_loop(static_cast<size_t>(loops.count()));
+  for (const Zero& zero : zeros)
+    of_loop[static_cast<size_t>(nearest_loop(samples, zero.position))].push_back(zero);
+  VectorXd theta(values.size());
+  for (Index l = 0; l < loops.count(); ++l)
+    theta.segment(loops.first(l), loops.length(l)) =
+        loop_argument(samples.loop(l), values.segment(loops.first(l), loops.length(l)),
+                      of_loop[static_cast<size_t>(l)]);
+  join_loops(samples, theta);
+  return theta;
 }
 
 }  // namespace holomorph

@@ -148,7 +148,8 @@ struct EvalOptions {
   /// If set, the map is evaluated after this many iterations. Methods that report no energies
   /// ignore this.
   std::optional<int> iteration = {};
-  /// Lets another thread end a slow final answer: `deform` then throws Stopped.
+  /// Lets another thread end a slow final answer: `deform` then throws Stopped. Methods that are
+  /// fast enough may finish instead.
   std::stop_token stop = {};
 
   bool operator==(const EvalOptions&) const = default;
@@ -162,6 +163,38 @@ class PointMap {
   };
   virtual ~PointMap() = default;
   virtual Value at(Complex z) const = 0;
+};
+
+/// The final map of a pose, as a key of a motion.
+struct MotionKey {
+  std::shared_ptr<const Solution> solution;
+  std::optional<Extremes> extremes;  ///< SampledMap::extremes
+  const Pose* pose;
+  const VectorXc* f;    ///< at the mesh's vertices
+  double rotation = 0;  ///< the average rotation of the picture in radians, with whole turns
+  double time = 0;
+};
+
+/// The motion from one key to the next.
+class MotionInterval {
+ public:
+  virtual ~MotionInterval() = default;
+  /// The map at the mesh's vertices, with derivatives, at the fraction u of the time, 0 < u < 1.
+  /// It has the status certified if the proof succeeds. `measures`: sets `extremes`, too.
+  virtual SampledMap at(double u, bool measures) const = 0;
+};
+
+/// Motion of a method whose maps are proved not to fold, which is proved, too. Threads: const
+/// functions may run at the same time as all functions of the deformer.
+class ProvedMotion {
+ public:
+  virtual ~ProvedMotion() = default;
+  /// The motion between two keys, linear in time, or smooth: with the velocities that the keys on
+  /// both sides suggest, or from rest and to rest without them. Null if a key is not certified. The
+  /// result does not refer to its arguments.
+  virtual std::unique_ptr<MotionInterval> interval(const MotionKey* before, const MotionKey& from,
+                                                   const MotionKey& to, const MotionKey* after,
+                                                   bool smooth) const = 0;
 };
 
 /// The precomputed data of a Rest. Computes the map of any pose until the rest changes.
@@ -191,6 +224,10 @@ class Deformer {
   /// rounding error, or to the integration error for methods that integrate along the mesh. Null
   /// when the method knows its map only at the samples.
   virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
+
+  /// Motion between final maps of this deformer, with proofs; null if the method proves nothing.
+  /// The first call precomputes. Threads: may run at the same time as `deform`.
+  virtual std::shared_ptr<const ProvedMotion> motion() const { return nullptr; }
 };
 
 /// Named parameter values, such as "strict". Missing parameters have their defaults.
@@ -210,7 +247,8 @@ struct Method {
   bool harmonic = true;            ///< f_z and conj(f_zbar) are holomorphic
   /// Motions of the plane: if all handles move by one of these, the map is that motion.
   enum class Motions { none, rigid, similar } reproduces = Motions::similar;
-  bool needs_mesh = false;  ///< Rest::mesh must be set
+  bool needs_mesh = false;   ///< Rest::mesh must be set
+  bool allows_holes = true;  ///< the cage may have holes
   bool follows_others =
       false;  ///< approximates the map of another method, which has its own parameters
   /// Called by `prepare` with a checked rest.

@@ -51,11 +51,26 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map) {
       report.zeros.push_back((mesh.vertices[i] + mesh.vertices[j] + mesh.vertices[k]) / 3.0);
   }
   report.flipped_triangles = flipped_triangles(mesh, map.f);
-  Points image;
-  for (const int v : mesh.boundary) image.push_back(map.f[v]);
+  Polygon image{{}, mesh.holes};
+  for (const int v : mesh.boundary) image.points.push_back(map.f[v]);
   report.turning_number = turning_number(image);
   report.simple_boundary = !self_crossing(image).has_value();
   return report;
+}
+
+double isometric_energy_of(const Mesh& mesh, const VectorXc& f) {
+  double sum = 0, total = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Complex a = mesh.vertices[static_cast<size_t>(t[0])];
+    const double area = cross(mesh.vertices[static_cast<size_t>(t[1])] - a,
+                              mesh.vertices[static_cast<size_t>(t[2])] - a);
+    const LinearDerivatives here = derivatives_in(mesh, t, f);
+    const double x = std::norm(here.fz), y = std::norm(here.fzbar), d = x - y;
+    if (!(d > 0)) return std::numeric_limits<double>::infinity();
+    sum += area * (x + y) * (1 + 1 / (d * d));
+    total += area;
+  }
+  return sum / total;
 }
 
 LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f) {

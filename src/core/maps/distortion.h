@@ -37,6 +37,11 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map);
 /// sigma are the extremes over the triangles.
 MapReport report_of_linear(const Mesh& mesh, const VectorXc& f);
 
+/// The symmetric Dirichlet energy of the piecewise linear map with the values f at the mesh's
+/// vertices: the mean over the area of half the sum of both stretches squared and of their inverses
+/// squared. It is 2 for rigid motions, and infinite if a triangle is flipped.
+double isometric_energy_of(const Mesh& mesh, const VectorXc& f);
+
 /// f_z and f_zbar, in triangle t, of the piecewise linear map with the values f at the mesh's
 /// vertices.
 struct LinearDerivatives {

@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 
+#include "core/maps/distortion.h"
+
 namespace holomorph {
 namespace {
 
@@ -99,7 +101,7 @@ Shrunken most_shrunken(const Mesh& mesh, const VectorXc& f) {
 /// the vertex farthest from it are kept.
 class SimplifiedPolygon {
  public:
-  SimplifiedPolygon(const Points& polygon, double tolerance)
+  SimplifiedPolygon(std::span<const Complex> polygon, double tolerance)
       : polygon_(polygon), tolerance_(tolerance) {
     const auto farthest = std::ranges::max_element(
         polygon, {}, [&](Complex z) { return std::abs(z - polygon.front()); });
@@ -125,22 +127,43 @@ class SimplifiedPolygon {
     keep_between(at, to);
   }
 
-  const Points& polygon_;
+  std::span<const Complex> polygon_;
   double tolerance_;
   Points points_;
 };
+
+/// Whether nothing folds: no triangle is flipped, and the triangles around each inner vertex close
+/// after one turn.
+bool is_immersion(const Mesh& mesh, const VectorXc& f) {
+  if (flipped_triangles(mesh, f) > 0) return false;
+  VectorXd angles = VectorXd::Zero(f.size());
+  for (const Triangle& t : mesh.triangles)
+    for (size_t k = 0; k < 3; ++k)
+      angles[t[k]] += std::arg((f[t[(k + 2) % 3]] - f[t[k]]) / (f[t[(k + 1) % 3]] - f[t[k]]));
+  for (const int v : mesh.boundary) angles[v] = 0;
+  return angles.maxCoeff() < 3 * kPi;
+}
 
 }  // namespace
 
 Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   Injectivity found;
   found.folds_at = visible_folds(mesh, f);
-  Points image;
-  for (const int v : mesh.boundary) image.push_back(f[v]);
-  if (image.empty()) return found;
+  Polygon image{{}, mesh.holes};
+  for (const int v : mesh.boundary) image.points.push_back(f[v]);
+  if (image.points.empty()) return found;
   constexpr double kVisible = 3e-4;
-  found.turning_number =
-      turning_number(SimplifiedPolygon(image, kVisible * box_of(image).diagonal()).points());
+  const PolygonView loops = image;
+  Polygon simplified;
+  for (Index l = 0; l < loops.loops().count(); ++l) {
+    if (l > 0) simplified.holes.push_back(static_cast<Index>(simplified.points.size()));
+    const Points loop =
+        SimplifiedPolygon(loops.loop(l), kVisible * box_of(image).diagonal()).points();
+    simplified.points.insert(simplified.points.end(), loop.begin(), loop.end());
+  }
+  found.turning_number = turning_number(simplified);
+  // In a part that is wound up thinly, the simplified boundary may turn more often.
+  if (is_immersion(mesh, f)) found.turning_number = 1;
   const Shrunken shrunken = most_shrunken(mesh, f);
   found.least_stretch = shrunken.least;
   if (found.folds_at.empty() && found.folds()) found.folds_at = {shrunken.at};

@@ -8,10 +8,11 @@
 namespace holomorph {
 
 struct Injectivity {
-  /// Turning number of the boundary's image after simplification to 3e-4 of its size. It is 1
+  /// turning_number of the boundary's image after simplification to 3e-4 of its size. It is 1
   /// without folds and -1 for a mirrored picture. For a conformal map, each zero of f' adds 1, and
   /// the picture folds around it. Loops below this size, such as those at corners of outlines, are
-  /// invisible and do not count.
+  /// invisible and do not count. Always 1 if no triangle is flipped and the triangles around each
+  /// inner vertex close after one turn.
   double turning_number = 1;
   /// One posed position in each flipped region, the largest region first. Regions that together
   /// cover less than 1e-4 of the picture's area are ignored. The list is then empty if the turning

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/cauchy/cauchy.h"
+#include "core/geometry/orientation.h"
 #include "core/maps/distortion.h"
 
 namespace holomorph {
@@ -29,7 +30,7 @@ int oriented(const std::vector<Preimage>& found) {
 
 InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
                        const PointMap& map)
-    : rest_(counter_clockwise(rest)),
+    : rest_(oriented(rest)),
       mesh_(mesh),
       positions_(positions.begin(), positions.end()),
       map_(map),
@@ -93,9 +94,11 @@ void InverseMap::fill_cells() {
 void InverseMap::set_up_boundary() {
   std::vector<SegmentPolynomial> loop;
   for (Index e = 0; e < rest_.size(); ++e) loop.emplace_back(rest_.controls(e));
+  const Loops loops = mesh_.boundary_loops();
   piece_at_.assign(mesh_.vertices.size(), -1);
   for (size_t i = 0; i < mesh_.boundary.size(); ++i) {
-    const int v = mesh_.boundary[i], next = mesh_.boundary[(i + 1) % mesh_.boundary.size()];
+    const int v = mesh_.boundary[i],
+              next = mesh_.boundary[static_cast<size_t>(loops.next(static_cast<Index>(i)))];
     boundary_.push_back(positions_[v]);
     Arc arc{mesh_.vertices[v], mesh_.vertices[next]};
     const auto from = contact_of(loop, arc.from, kOnCurve), to = contact_of(loop, arc.to, kOnCurve);
@@ -124,7 +127,8 @@ size_t InverseMap::cell_of(Complex w) const {
 }
 
 std::optional<int> InverseMap::winding(Complex w) const {
-  if (box_.contains(w) && !cells_[cell_of(w)].on_boundary) return winding_number(boundary_, w);
+  if (box_.contains(w) && !cells_[cell_of(w)].on_boundary)
+    return winding_number({boundary_, mesh_.holes}, w);
   return winding_.turns(pieces_, w);
 }
 
@@ -188,12 +192,12 @@ bool InverseMap::is_in_inner_triangle(const Preimage& preimage) const {
 }
 
 bool InverseMap::is_inside(Complex z) const {
-  const Points& outline = flat_.points;
+  const PolygonView outline = flat_;
   const NearestPoint near = nearest_on_polygon(outline, z);
-  if (near.distance > near_) return winding_number(outline, z) != 0;
+  if (near.distance > near_) return encloses(outline, z);
   // On the boundary the result depends on rounding. A point therefore also counts as inside if a
   // tiny step inward moves it inside.
-  const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
+  const Complex side = outline[outline.loops().next(near.edge)] - outline[near.edge];
   return contains(rest_, z) || contains(rest_, z + 1e-10 * size_ * kI * side / std::abs(side));
 }
 
@@ -206,7 +210,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   // undefined.
   std::vector<Preimage> inner;
   for (const Preimage& preimage : found) {
-    if (nearest_on_polygon(flat_.points, preimage.z).distance <= kOn * size_) return found;
+    if (nearest_on_polygon(flat_, preimage.z).distance <= kOn * size_) return found;
     if (contains(rest_, preimage.z)) inner.push_back(preimage);
   }
   if (oriented(inner) == *wanted) return inner;

@@ -40,6 +40,16 @@ MeshTree::MeshTree(const Mesh& mesh, std::optional<int> root) : mesh_(mesh) {
   }
 }
 
+VectorXd MeshTree::argument(Complex center) const {
+  VectorXd argument = VectorXd::Zero(static_cast<Index>(mesh_.vertices.size()));
+  for (const auto [a, b] : edges_) {
+    const Complex from = mesh_.vertices[static_cast<size_t>(a)] - center,
+                  to = mesh_.vertices[static_cast<size_t>(b)] - center;
+    argument[b] = argument[a] + std::atan2(cross(from, to), dot(from, to));
+  }
+  return argument;
+}
+
 VectorXc MeshTree::antiderivative(const VectorXc& derivative, const VectorXc& second) const {
   VectorXc f = VectorXc::Zero(derivative.size());
   for (const auto [a, b] : edges_) {

@@ -8,7 +8,7 @@
 namespace holomorph {
 
 /// A spanning tree of the edges of a mesh, built breadth-first from a given vertex or, by default,
-/// from a vertex near the center. Domains are simply connected, so every path gives the same
+/// from a vertex near the center. In a domain without holes, every path gives the same
 /// antiderivative.
 class MeshTree {
  public:
@@ -19,6 +19,10 @@ class MeshTree {
   /// trapezoidal rule with the Hermite correction, h / 2 (F'_0 + F'_1) + h^2 / 12 (F''_0 - F''_1),
   /// which is exact for cubic F'. Cost: linear, 3 ns per vertex.
   VectorXc antiderivative(const VectorXc& derivative, const VectorXc& second) const;
+
+  /// The argument of z - center at the vertices, in radians, continuous along the edges of the
+  /// tree.
+  VectorXd argument(Complex center) const;
 
   struct Edge {
     int from, to;

@@ -135,18 +135,16 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
   f.resize(right.size());
   f.real() = laplacian_->solve(right.real().eval());
   f.imag() = laplacian_->solve(right.imag().eval());
-  const Location still = least_moving_point(a.f, b.f);
+  const Location still = least_moving_point(*mesh_, a.f, b.f);
   const auto at = [&](const VectorXc& map) { return still.in(*mesh_, as_span(map)); };
   f.array() += (1 - weight) * at(a.f) + weight * at(b.f) - at(f);
 }
 
-/// A point at which the two maps agree. If there is none, the vertex whose two images are closest
-/// to each other.
-Location Inbetween::least_moving_point(const VectorXc& a, const VectorXc& b) const {
+Location least_moving_point(const Mesh& mesh, const VectorXc& a, const VectorXc& b) {
   Location best;
   double least = INFINITY;
-  for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
-    const Triangle& t = mesh_->triangles[i];
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
     const std::array<Complex, 3> displacement{b[t[0]] - a[t[0]], b[t[1]] - a[t[1]],
                                               b[t[2]] - a[t[2]]};
     const Complex u = displacement[1] - displacement[0], v = displacement[2] - displacement[0];

@@ -25,6 +25,10 @@ struct ExpectedTurn {
   double radians = 0;
 };
 
+/// A point at which the maps with values a and b at the mesh's vertices agree. If there is none,
+/// the vertex whose two images are closest to each other.
+Location least_moving_point(const Mesh& mesh, const VectorXc& a, const VectorXc& b);
+
 class Inbetween {
  public:
   /// Cost: a sparse factorization, 60 ms for 10,000 vertices.
@@ -69,8 +73,6 @@ class Inbetween {
     return mesh_->vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
            mesh_->vertices[static_cast<size_t>(t[(corner + 1) % 3])];
   }
-
-  Location least_moving_point(const VectorXc& a, const VectorXc& b) const;
 
   std::shared_ptr<const Mesh> mesh_;
   /// Triangles, ordered such that each one except the first has an earlier neighbor.

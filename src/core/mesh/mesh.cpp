@@ -2,6 +2,7 @@
 #include "core/mesh/mesh.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "core/error.h"
@@ -29,6 +30,25 @@ int vertex_at(Complex corner, double tolerance, Mesh& mesh) {
   return nearest;
 }
 
+/// Sets the loops of the boundary, the outer one first.
+void set_boundary(const Cage& cage, Mesh& mesh) {
+  std::vector<std::vector<int>> loops =
+      boundary_loops(static_cast<int>(mesh.vertices.size()), mesh.triangles, "the mesh");
+  if (loops.size() != static_cast<size_t>(cage.loops().count()))
+    refuse("they have " + std::to_string(loops.size() - 1) + " holes, but the cage has " +
+           std::to_string(cage.holes.size()));
+  const auto area = [&mesh](const std::vector<int>& loop) {
+    Points points;
+    for (const int v : loop) points.push_back(mesh.vertices[v]);
+    return signed_area(points);
+  };
+  std::ranges::sort(loops, std::greater(), area);
+  for (const std::vector<int>& loop : loops) {
+    if (!mesh.boundary.empty()) mesh.holes.push_back(static_cast<Index>(mesh.boundary.size()));
+    mesh.boundary.insert(mesh.boundary.end(), loop.begin(), loop.end());
+  }
+}
+
 }  // namespace
 
 Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles) {
@@ -36,15 +56,17 @@ Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles)
   check_rest_cage(cage);
   if (!std::ranges::all_of(vertices, is_finite))
     refuse("a vertex has a coordinate that is not finite");
-  Mesh mesh{std::move(vertices), std::move(triangles), {}, {}};
+  Mesh mesh;
+  mesh.vertices = std::move(vertices);
+  mesh.triangles = std::move(triangles);
   const int count = static_cast<int>(mesh.vertices.size());
   for (Triangle& t : mesh.triangles) {
     if (std::ranges::any_of(t, [count](int v) { return v < 0 || v >= count; }))
       refuse("a triangle refers to a vertex that does not exist");
     if (doubled_area(mesh, t) < 0) std::swap(t[1], t[2]);
   }
-  mesh.boundary = disk_boundary(count, mesh.triangles, "the mesh");
-  const Points outline = flattened(cage).points;
+  set_boundary(cage, mesh);
+  const FlatCage outline = flattened(cage);
   const double size = box_of(outline).diagonal();
   for (const Complex& corner : vertices_of(cage))
     mesh.cage_vertices.push_back(vertex_at(corner, kAtVertex * size, mesh));
@@ -57,8 +79,7 @@ Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles)
   for (const int v : mesh.boundary)
     if (nearest_on_polygon(outline, mesh.vertices[v]).distance > kAtCurve * size)
       refuse("the boundary vertex " + point_text(mesh.vertices[v]) + " is not on the cage");
-  if (std::abs(area - std::abs(signed_area(outline))) > kArea * size * size)
-    refuse("they do not fill the cage");
+  if (std::abs(area - area_of(outline)) > kArea * size * size) refuse("they do not fill the cage");
   return mesh;
 }
 

@@ -15,19 +15,23 @@ using Triangle = std::array<int, 3>;
 struct Mesh {
   Points vertices;
   std::vector<Triangle> triangles;
-  /// The boundary as one closed loop of vertex indices, counter-clockwise.
+  /// The boundary as closed loops of vertex indices, with the inside on their left: the outer loop,
+  /// and then a loop around each hole.
   std::vector<int> boundary;
   /// For each cage vertex, the mesh vertex at exactly the same position.
   std::vector<int> cage_vertices;
+  std::vector<Index> holes = {};  ///< where each hole starts in `boundary`
+
+  Loops boundary_loops() const { return {static_cast<Index>(boundary.size()), holes}; }
 };
 
 /// Makes a mesh of the inside of a rest cage from the caller's own triangles, of either
-/// orientation. The triangles must form one disk without holes that fills the cage, and no triangle
-/// may be flat. The boundary vertices must lie on the cage to within 1e-4 of the cage's size. At
-/// every cage vertex, there must be a boundary vertex within 1e-9 of the size. This boundary vertex
-/// is moved to the exact position. The areas of the mesh and the cage must agree to within 1e-3 of
-/// the size squared. Throws an Error that names the failed condition. Cost: O(n log n) in the
-/// number of triangles, plus boundary vertices times cage vertices.
+/// orientation. The triangles must form one piece that fills the cage, with the same holes, and no
+/// triangle may be flat. The boundary vertices must lie on the cage to within 1e-4 of the cage's
+/// size. At every cage vertex, there must be a boundary vertex within 1e-9 of the size. This
+/// boundary vertex is moved to the exact position. The areas of the mesh and the cage must agree to
+/// within 1e-3 of the size squared. Throws an Error that names the failed condition. Cost: O(n log
+/// n) in the number of triangles, plus boundary vertices times cage vertices.
 Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles);
 
 /// For each vertex, 1 if it is on the boundary, else 0. Cost: linear.

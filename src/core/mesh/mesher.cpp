@@ -20,6 +20,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/geometry/deepest_point.h"
 
 namespace holomorph {
 namespace {
@@ -45,7 +46,7 @@ Complex complex_of(const Point& p) {
 /// interpolated in between.
 class Sizing {
  public:
-  Sizing(std::span<const Complex> polygon, double scale) : box_(box_of(polygon)) {
+  Sizing(PolygonView polygon, double scale) : box_(box_of(polygon.points())) {
     cell_ = std::max(box_.width(), box_.height()) / kNodes;
     columns_ = static_cast<int>(box_.width() / cell_) + 2;
     rows_ = static_cast<int>(box_.height() / cell_) + 2;
@@ -82,19 +83,19 @@ class Sizing {
   /// vertex). The integral is computed as the mean of the integrand over the centers of cells,
   /// times the area of the polygon. A plain sum over cells would miss thin parts between the
   /// centers.
-  double expected_vertices(std::span<const Complex> polygon) const {
+  double expected_vertices(PolygonView polygon) const {
     double mean = 1 / (0.866 * finest_ * finest_), sum = 0;
     int inside = 0;
     for (int r = 0; r < rows_; ++r)
       for (int c = 0; c < columns_; ++c) {
         const Complex z(box_.left + (c + 0.5) * cell_, box_.bottom + (r + 0.5) * cell_);
-        if (winding_number(polygon, z) == 0) continue;
+        if (!encloses(polygon, z)) continue;
         const double h = level(z) * finest_;
         sum += 1 / (0.866 * h * h);
         ++inside;
       }
     if (inside > 0) mean = sum / inside;
-    return mean * std::abs(signed_area(polygon)) + 0.5 * perimeter(polygon) / finest_;
+    return mean * area_of(polygon) + 0.5 * perimeter(polygon) / finest_;
   }
 
   const Box& box() const { return box_; }
@@ -151,7 +152,7 @@ class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Triangulation> {
 
 /// Points of a triangular lattice, without those too close to the boundary. Where the sizing
 /// allows, the lattice is coarser by a power of two.
-std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizing) {
+std::vector<Point> lattice(PolygonView polygon, const Sizing& sizing) {
   std::vector<Point> points;
   const double step = sizing.finest(), row_height = step * std::sqrt(0.75);
   const Box& box = sizing.box();
@@ -160,12 +161,11 @@ std::vector<Point> lattice(std::span<const Complex> polygon, const Sizing& sizin
   for (int r = 1; r <= rows; ++r) {
     const double y = box.bottom + r * row_height;
     crossings.clear();
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    polygon.for_each_edge([&](Index, Complex a, Complex b) {
       if ((a.imag() <= y) != (b.imag() <= y))
         crossings.push_back(a.real() +
                             (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()));
-    }
+    });
     std::sort(crossings.begin(), crossings.end());
     for (size_t inside = 0; inside + 1 < crossings.size(); inside += 2) {
       const auto column = [&](double x) { return (x - box.left) / step - 0.5 * (r % 2); };
@@ -207,7 +207,8 @@ unsigned hilbert_key(unsigned x, unsigned y) {
 
 /// Copies the inside of the triangulation, with its vertices in Hilbert order. Throws Error if a
 /// triangle has no area or if the outline is not closed.
-Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>& corners) {
+Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>& corners,
+             const Loops& loops) {
   std::vector<Triangulation::Vertex_handle> used;
   for (const auto& v : cdt.finite_vertex_handles()) v->info() = -1;
   for (const auto& face : cdt.finite_face_handles()) {
@@ -250,12 +251,16 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
     return *std::ranges::min_element(a) < *std::ranges::min_element(b);
   });
   for (const auto& corner : corners) mesh.cage_vertices.push_back(corner->info());
-  int v = mesh.cage_vertices[0];
-  do {
-    mesh.boundary.push_back(v);
-    v = next[v];
-  } while (v >= 0 && v != mesh.cage_vertices[0] && mesh.boundary.size() <= mesh.vertices.size());
-  if (v != mesh.cage_vertices[0]) nearly_touches_itself();
+  for (Index l = 0; l < loops.count(); ++l) {
+    if (l > 0) mesh.holes.push_back(static_cast<Index>(mesh.boundary.size()));
+    const int first = mesh.cage_vertices[static_cast<size_t>(loops.first(l))];
+    int v = first;
+    do {
+      mesh.boundary.push_back(v);
+      v = next[v];
+    } while (v >= 0 && v != first && mesh.boundary.size() <= mesh.vertices.size());
+    if (v != first) nearly_touches_itself();
+  }
   return mesh;
 }
 
@@ -264,29 +269,24 @@ void settle_on(const Cage& cage, const FlatCage& flat, Mesh& mesh) {
   std::vector<int> corner(mesh.vertices.size(), -1);
   for (size_t i = 0; i < flat.points.size(); ++i)
     corner[mesh.cage_vertices[i]] = static_cast<int>(i);
-  int last = -1;
+  const Loops loops = PolygonView(flat).loops();
+  Index last = -1;
   for (const int v : mesh.boundary) {
     if (corner[v] >= 0) {
       last = corner[v];
       continue;
     }
-    // The boundary is counter-clockwise, but the cage may be clockwise. The chord therefore runs
-    // from the last corner to either the next or the previous corner.
-    const size_t n = flat.points.size();
-    const size_t next = (static_cast<size_t>(last) + 1) % n, before = (last + n - 1) % n;
-    const auto off = [&](size_t other) {
+    // The mesh's boundary has the inside on its left, but the cage may run the other way. The chord
+    // therefore runs from the last corner to either the next or the previous corner.
+    const auto off = [&](Index other) {
       return nearest_on_segment(flat.points[last], flat.points[other], mesh.vertices[v]);
     };
-    const bool forward = off(next).distance <= off(before).distance;
-    const size_t from = forward ? static_cast<size_t>(last) : before;
-    const size_t to = (from + 1) % n;
-    const Index segment = flat.locations[from].segment;
-    if (is_straight(cage, segment)) continue;
-    const double t0 = flat.locations[from].t,
-                 t1 = flat.locations[to].segment == segment ? flat.locations[to].t : 1.0;
+    const Index next = loops.next(last), before = loops.before(last);
+    const Index from = off(next).distance <= off(before).distance ? last : before;
+    if (is_straight(cage, flat.locations[from].segment)) continue;
     const double fraction =
-        nearest_on_segment(flat.points[from], flat.points[to], mesh.vertices[v]).t;
-    mesh.vertices[v] = position_of(cage, {segment, t0 + fraction * (t1 - t0)});
+        nearest_on_segment(flat.points[from], flat.points[loops.next(from)], mesh.vertices[v]).t;
+    mesh.vertices[v] = position_of(cage, flat.on_edge(from, fraction));
   }
 }
 
@@ -315,10 +315,10 @@ void untangle(Mesh& mesh) {
 
 /// Throws CGAL::Failure_exception if CGAL's invariants break, and Error if the mesh does not fill
 /// the polygon.
-Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+Mesh refined_mesh(PolygonView polygon, const MeshOptions& options) {
   Sizing sizing(polygon, 1.0);
   const double wanted = std::max(options.vertices, 16);
-  double finest = std::sqrt(std::abs(signed_area(polygon)) / wanted);
+  double finest = std::sqrt(area_of(polygon) / wanted);
   // Ordinary polygons take a few steps. A needle takes more, because its finest edge length is
   // small compared with its perimeter.
   for (int step = 0; step < 60; ++step) {
@@ -331,32 +331,40 @@ Mesh refined_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
 
   Triangulation cdt;
   std::vector<Triangulation::Vertex_handle> corners;
-  for (const Complex& z : polygon) corners.push_back(cdt.insert(point_of(z)));
-  for (size_t i = 0; i < corners.size(); ++i) {
-    check(corners[i] != corners[(i + 1) % corners.size()], "cage vertices are distinct");
-    cdt.insert_constraint(corners[i], corners[(i + 1) % corners.size()]);
+  for (const Complex& z : polygon.points()) corners.push_back(cdt.insert(point_of(z)));
+  const Loops loops = polygon.loops();
+  for (Index i = 0; i < polygon.size(); ++i) {
+    const auto &from = corners[static_cast<size_t>(i)],
+               &to = corners[static_cast<size_t>(loops.next(i))];
+    check(from != to, "cage vertices are distinct");
+    cdt.insert_constraint(from, to);
   }
   const std::vector<Point> inner = lattice(polygon, sizing);
   cdt.insert(inner.begin(), inner.end());
 
   CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(cdt, Criteria(sizing));
+  std::vector<Point> seeds;  // a point in each hole
+  for (Index l = 1; l < loops.count(); ++l) {
+    const auto hole = polygon.loop(l);
+    seeds.push_back(point_of(deepest_point(Polyline({hole.begin(), hole.end()}, true))));
+  }
+  mesher.set_seeds(seeds.begin(), seeds.end());
   mesher.init();
-  const size_t limit = static_cast<size_t>(3 * wanted) + 4 * polygon.size();
+  const size_t limit = static_cast<size_t>(3 * wanted) + 4 * polygon.points().size();
   size_t steps = 20 * limit;  // a step may also do nothing
   while (!mesher.is_refinement_done() && cdt.number_of_vertices() < limit && steps-- > 0)
     mesher.step_by_step_refine_mesh();
-  Mesh mesh = extract(cdt, corners);
+  Mesh mesh = extract(cdt, corners, loops);
   double area = 0;
   for (const auto& [a, b, c] : mesh.triangles)
     area += 0.5 * cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
   constexpr double kMissing = 1e-10;  // of the square of the polygon's size
-  const double size = box_of(polygon).diagonal();
-  if (std::abs(area - std::abs(signed_area(polygon))) > kMissing * size * size)
-    nearly_touches_itself();
+  const double size = box_of(polygon.points()).diagonal();
+  if (std::abs(area - area_of(polygon)) > kMissing * size * size) nearly_touches_itself();
   return mesh;
 }
 
-Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+Mesh polygon_mesh(PolygonView polygon, const MeshOptions& options) {
   // The exception has the details. The default handler would also print them.
   static const auto printing =
       CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
@@ -373,7 +381,7 @@ Mesh polygon_mesh(std::span<const Complex> polygon, const MeshOptions& options) 
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
   check_rest_cage(cage);  // its messages name the cage's own segments
   const FlatCage flat = flattened(cage);
-  Mesh mesh = polygon_mesh(flat.points, options);
+  Mesh mesh = polygon_mesh(flat, options);
   if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;
   settle_on(cage, flat, mesh);
   untangle(mesh);
@@ -384,7 +392,7 @@ Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
   return mesh;
 }
 
-Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options) {
+Mesh domain_mesh(PolygonView polygon, const MeshOptions& options) {
   check_rest_cage(polygon_cage(polygon));
   return polygon_mesh(polygon, options);
 }

@@ -12,13 +12,13 @@ struct MeshOptions {
   int vertices = 8000;
 };
 
-/// Meshes the inside of a simple polygon of either orientation with conforming Delaunay triangles,
+/// Meshes the inside of a simple polygon of any orientation with conforming Delaunay triangles,
 /// which are smaller near the boundary. Every cage vertex is a mesh vertex with the same
 /// coordinates. Slivers, collinear and nearly repeated vertices are allowed. A needle-sharp corner
 /// of the polygon produces needle-sharp triangles. Refinement stops at about three times the target
 /// number of vertices. Throws Error for polygons that check_rest_cage rejects. Cost: about 4 us per
 /// vertex.
-Mesh domain_mesh(std::span<const Complex> polygon, const MeshOptions& options = {});
+Mesh domain_mesh(PolygonView polygon, const MeshOptions& options = {});
 
 /// Meshes the inside of a rest cage. The vertices of the cage are mesh vertices, and every boundary
 /// vertex lies on the curves of the cage. The outline of the mesh follows the curves to within 5e-5

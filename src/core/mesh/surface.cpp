@@ -1,4 +1,4 @@
-// A disk has one component, one boundary loop and V - E + F = 1.
+// A disk with h holes has one component, h + 1 boundary loops and V - E + F = 1 - h.
 #include "core/mesh/surface.h"
 
 #include <map>
@@ -18,18 +18,24 @@ int root(std::vector<int>& parent, int i) {
   return i;
 }
 
+[[noreturn]] void refuse(const std::string& what, const std::string& why) {
+  throw Error(ErrorKind::bad_input, what + " is not a disk: " + why +
+                                        "; it must be a single piece with a single boundary");
+}
+
 }  // namespace
 
 std::vector<int> disk_boundary(const Surface& surface) {
-  return disk_boundary(static_cast<int>(surface.vertices.size()), surface.triangles, "the surface");
+  const auto loops =
+      boundary_loops(static_cast<int>(surface.vertices.size()), surface.triangles, "the surface");
+  if (loops.size() > 1) refuse("the surface", "it has a hole");
+  return loops[0];
 }
 
-std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> triangles,
-                               const std::string& what) {
-  const auto refuse = [&what](const std::string& why) {
-    throw Error(ErrorKind::bad_input, what + " is not a disk: " + why +
-                                          "; it must be a single piece with a single boundary");
-  };
+std::vector<std::vector<int>> boundary_loops(int count,
+                                             std::span<const std::array<int, 3>> triangles,
+                                             const std::string& what) {
+  const auto refuse = [&what](const std::string& why) { holomorph::refuse(what, why); };
   if (triangles.empty()) refuse("it has no triangles");
   std::map<Edge, int> directed;
   std::vector<int> parent(static_cast<size_t>(count));
@@ -53,13 +59,16 @@ std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> tr
     if (!inner && !next.emplace(edge).second) refuse("its boundary touches itself at a vertex");
   }
   if (next.empty()) refuse("it is closed");
-  std::vector<int> loop;
-  for (int at = next.begin()->first; loop.empty() || at != loop.front(); at = next.at(at))
-    loop.push_back(at);
-  if (loop.size() < next.size()) refuse("it has a hole");
+  std::vector<std::vector<int>> loops;
+  while (!next.empty()) {
+    std::vector<int>& loop = loops.emplace_back();
+    for (int at = next.begin()->first; loop.empty() || at != loop.front(); at = next.at(at))
+      loop.push_back(at);
+    for (const int at : loop) next.erase(at);
+  }
   const long euler = count - static_cast<long>(edges) + static_cast<long>(triangles.size());
-  if (euler != 1) refuse("it has a handle");
-  return loop;
+  if (euler != 2 - static_cast<long>(loops.size())) refuse("it has a handle");
+  return loops;
 }
 
 }  // namespace holomorph

@@ -22,9 +22,11 @@ struct Surface {
 /// both orientations. Cost: O(n log n).
 std::vector<int> disk_boundary(const Surface& surface);
 
-/// The boundary loop of triangles over the vertices 0 to count - 1. Error messages call the
+/// The loops of the boundary of triangles over the vertices 0 to count - 1, in the direction of the
+/// triangles. Throws the same errors, except that holes are allowed. Error messages call the
 /// triangles `what`.
-std::vector<int> disk_boundary(int count, std::span<const std::array<int, 3>> triangles,
-                               const std::string& what);
+std::vector<std::vector<int>> boundary_loops(int count,
+                                             std::span<const std::array<int, 3>> triangles,
+                                             const std::string& what);
 
 }  // namespace holomorph

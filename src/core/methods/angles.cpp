@@ -7,7 +7,8 @@
 #include "core/angles/boundary_angles.h"
 #include "core/compared/published_angles.h"
 #include "core/error.h"
-#include "core/methods/acting_pins.h"
+#include "core/geometry/orientation.h"
+#include "core/maps/acting_pins.h"
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
@@ -18,7 +19,7 @@ namespace {
 /// A rest's boundary as this method uses it: counter-clockwise, with corners in order.
 struct Boundary {
   explicit Boundary(const Rest& rest)
-      : cage(counter_clockwise(rest.cage)), reversed(!(cage == rest.cage)), corners(rest.corners) {
+      : cage(oriented(rest.cage)), reversed(!(cage == rest.cage)), corners(rest.corners) {
     const Index n = cage.size();
     if (corners.empty()) {
       corners.resize(static_cast<size_t>(n));
@@ -284,6 +285,7 @@ Method angles_method() {
       .uses_corners = true,
       .iterates = true,
       .needs_mesh = true,
+      .allows_holes = false,
       .make = make_angles,
   };
 }

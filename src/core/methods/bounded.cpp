@@ -4,8 +4,10 @@
 // The steps are: reference at the boundary's samples -> continuous ln f_z -> cone program -> proof
 // -> integration along the mesh.
 #include <cstdio>
+#include <mutex>
 
 #include "core/bounded/bounded_reference.h"
+#include "core/bounded/hole_closing.h"
 #include "core/bounded/psi_space.h"
 #include "core/error.h"
 #include "core/geometry/similarity.h"
@@ -14,6 +16,7 @@
 #include "core/methods/linear.h"
 #include "core/methods/notes.h"
 #include "core/methods/parameters.h"
+#include "core/methods/proved_motion.h"
 #include "core/methods/rows.h"
 
 namespace holomorph {
@@ -32,6 +35,7 @@ class BoundedDeformer final : public Deformer {
     basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis,
                                                    ReferenceSampler::kSamplesPerVertex * basis);
     on_mesh_ = std::make_unique<MapOnMesh>(*basis_, *rest.mesh);
+    closing_ = std::make_unique<HoleClosing>(*basis_, *rest.mesh);
     reference_ = std::make_unique<ReferenceSampler>(
         rest, method_named(choice(method_, rest.parameters, "reference")), *basis_, *on_mesh_);
     for (const RestPin& pin : rest.pins)
@@ -69,6 +73,23 @@ class BoundedDeformer final : public Deformer {
     return out;
   }
 
+  std::shared_ptr<const ProvedMotion> motion() const override {
+    std::call_once(motion_once_, [this] {
+      MotionSetting setting{basis_, rest_.mesh, {}, {}, {}};
+      for (size_t i = 0; i < pins_.size(); ++i)
+        if (pins_[i] && reference_->uses_pins()) {
+          setting.pins.push_back(i);
+          setting.positions.push_back(rest_.pins[i].position);
+        }
+      setting.map_of = [basis = basis_](const Solution& solution) -> const LogMap* {
+        const auto* found = dynamic_cast<const Found*>(&solution);
+        return found && found->basis == basis ? &found->solution.map : nullptr;
+      };
+      motion_ = proved_motion(std::move(setting));
+    });
+    return motion_;
+  }
+
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(rest_, pose);
     BoundedDeformer copy(rest_, final_basis(rest_.cage));
@@ -102,6 +123,7 @@ class BoundedDeformer final : public Deformer {
     project(reference_->reference(zeros), pose, before && !before->is_identity ? before : nullptr,
             found);
     throw_if_stopped(options.stop);
+    if (closing_->has_holes() && found.solution.certificate.holds) close(found.solution);
     integrate(pose, options.draft, found);
   }
 
@@ -161,11 +183,34 @@ class BoundedDeformer final : public Deformer {
     found.solution.solution.status = ConeSolution::Status::solved;
   }
 
+  Certificate certify(const LogMap& map) const {
+    return nu_ ? nu_->certify(map) : psi_->certify(map);
+  }
+
+  /// Makes the map single-valued around the holes. If the closed map violates the bounds, starts
+  /// nearer to a similarity, which is closed.
+  void close(BoundedMap& solution) const {
+    const VectorXc l = solution.map.l, w = solution.map.w;
+    const Complex middle(bounds_.tightened(kTightening).middle(),
+                         on_mesh_->function(l).mean().imag());
+    for (double part = 0; part <= 1; part = part == 0 ? 1.0 / 64 : 2 * part) {
+      LogMap map{l * (1 - part), w * (1 - part), solution.map.second};
+      map.l.array() += part * middle;
+      map = closing_->closed(std::move(map), bounds_.k == 0);
+      solution.certificate = certify(map);
+      solution.certificate.holds = solution.certificate.holds && closing_->is_closed(map);
+      solution.map = std::move(map);
+      if (solution.certificate.holds) return;
+    }
+  }
+
   /// Integrates the map along the mesh and aligns it.
   void integrate(const Pose& pose, bool draft, Found& found) const {
     MapOnMesh::Values values = on_mesh_->values(found.solution.map);
     // Next to the boundary, the quadrature along the tree is off by a thousandth of a pixel.
     found.f = draft ? std::move(values.f) : on_mesh_->integrated(found.solution.map);
+    if (closing_->has_holes())
+      found.f -= closing_->loops().correction(on_mesh_->tree(), closing_->gaps(found.solution.map));
     found.first = std::move(values.first);
     align(pose, found);
     found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
@@ -191,7 +236,7 @@ class BoundedDeformer final : public Deformer {
     const Similarity nearest = similarity_between(from, to);
     Complex factor = nearest.factor;
     LogMap map = scaled(found.solution.map, factor);
-    const Certificate certificate = nu_ ? nu_->certify(map) : psi_->certify(map);
+    const Certificate certificate = certify(map);
     if (certificate.holds) {
       found.solution.certificate = certificate;
     } else {
@@ -274,11 +319,14 @@ class BoundedDeformer final : public Deformer {
   std::string space_;
   std::shared_ptr<const BoundaryBasis> basis_;
   std::unique_ptr<MapOnMesh> on_mesh_;
+  std::unique_ptr<HoleClosing> closing_;
   std::unique_ptr<ReferenceSampler> reference_;
   std::unique_ptr<BoundedSpace> nu_;  ///< null when psi_ is used
   std::unique_ptr<PsiSpace> psi_;
   std::vector<std::optional<Location>> pins_;
   std::unique_ptr<BoundedDeformer> draft_;
+  mutable std::once_flag motion_once_;
+  mutable std::shared_ptr<const ProvedMotion> motion_;
 };
 
 std::unique_ptr<Deformer> make_bounded(const Rest& rest, const Deformer*) {

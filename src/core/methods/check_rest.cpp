@@ -56,6 +56,14 @@ void check_mesh(const Mesh& mesh, const Cage& cage) {
     if (std::ranges::none_of(mesh.cage_vertices, [&](int v) { return mesh.vertices[v] == corner; }))
       refuse("the mesh does not belong to this cage: the cage vertex " + point_text(corner) +
              " is not one of its cage_vertices; make the mesh with mesh_of or domain_mesh");
+  const Index loops = cage.loops().count();
+  if (static_cast<Index>(mesh.holes.size()) != loops - 1 ||
+      !std::ranges::is_sorted(mesh.holes, std::less_equal{}) ||
+      std::ranges::any_of(mesh.holes, [&](Index first) {
+        return first < 3 || first + 3 > static_cast<Index>(mesh.boundary.size());
+      }))
+    refuse("the mesh does not belong to this cage: its boundary must have " +
+           std::to_string(loops) + " loops, each with at least three vertices");
   if (mesh.cage_vertices.size() != corners.size())
     refuse("the mesh does not belong to this cage: it has " +
            std::to_string(mesh.cage_vertices.size()) +
@@ -110,6 +118,10 @@ void check_rest(const Method& method, const Rest& rest) {
   for (const Method& other : methods())
     for (const ParameterSpec& spec : other.parameters)
       check_parameter(spec, parameters_of(rest, other));
+  if (!method.allows_holes && !rest.cage.holes.empty())
+    refuse("\"" + method.label +
+           "\" does not work in a cage with holes; fill the holes or choose "
+           "another method");
   if (method.needs_mesh && !rest.mesh)
     refuse("method " + method.id + " needs a mesh of the cage, but the rest has no mesh");
   if (rest.mesh) check_mesh(*rest.mesh, rest.cage);

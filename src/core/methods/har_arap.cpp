@@ -3,8 +3,13 @@
 //
 // There are a few hundred unknowns. The energy is a sum over samples instead of triangles. Here f_z
 // = Phi' and f_zbar = conj(Psi').
+//
+// In a domain with holes, Phi + conj(Psi) is not every harmonic map. Each hole adds c ln|z - a|,
+// where a lies in the hole. This contributes c / (2 (z - a)) to Phi' and conj(c) / (2 (z - a)) to
+// Psi'.
 #include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
+#include "core/geometry/deepest_point.h"
 #include "core/mesh/area_samples.h"
 #include "core/methods/handles.h"
 #include "core/methods/linear.h"
@@ -30,6 +35,11 @@ class HarArapDeformer final : public Deformer {
         basis_(rest.cage, BoundaryBasis::usual_size(rest.cage.size()),
                kSamplesEach * BoundaryBasis::usual_size(rest.cage.size())) {
     size_ = box_of(rest.mesh->vertices).diagonal();
+    const Points edge = basis_.polygon().points;
+    const Loops loops = PolygonView(basis_.polygon()).loops();
+    for (Index l = 1; l < loops.count(); ++l)
+      holes_.push_back(deepest_point(
+          Polyline({edge.begin() + loops.first(l), edge.begin() + loops.end(l)}, true)));
     set_up_energy();
     set_up_handles();
     const Cage polygon = polygon_cage(basis_.polygon());
@@ -55,16 +65,43 @@ class HarArapDeformer final : public Deformer {
     if (out.iterations == most) out.status = SampledMap::Status::iterating;
     out.solution = found;
     out.f = product(values_, found->phi) + product(values_, found->psi).conjugate();
+    if (!holes_.empty()) out.f += logarithms(rest_.samples) * found->logs;
     if (!options.derivatives) return out;
     out.fz = product(slopes_, found->phi);
     out.fzbar = product(slopes_, found->psi).conjugate();
+    if (!holes_.empty()) {
+      const MatrixXc slopes = logarithm_slopes(derivative_points());
+      out.fz += slopes * found->logs;
+      out.fzbar += slopes.conjugate() * found->logs;
+    }
     return out;
   }
 
  private:
   struct Found : Solution {
-    VectorXc phi, psi;
+    VectorXc phi, psi, logs;
   };
+
+  const Points& derivative_points() const {
+    return rest_.derivative_samples.empty() ? rest_.samples : rest_.derivative_samples;
+  }
+  /// ln|z - a|, one column for each hole.
+  MatrixXd logarithms(const Points& points) const {
+    MatrixXd values(static_cast<Index>(points.size()), static_cast<Index>(holes_.size()));
+    for (Index h = 0; h < values.cols(); ++h)
+      for (Index i = 0; i < values.rows(); ++i)
+        values(i, h) = std::log(
+            std::abs(points[static_cast<size_t>(i)] - holes_[static_cast<size_t>(h)]) / size_);
+    return values;
+  }
+  /// Its derivative in z.
+  MatrixXc logarithm_slopes(const Points& points) const {
+    MatrixXc slopes(static_cast<Index>(points.size()), static_cast<Index>(holes_.size()));
+    for (Index h = 0; h < slopes.cols(); ++h)
+      for (Index i = 0; i < slopes.rows(); ++i)
+        slopes(i, h) = 0.5 / (points[static_cast<size_t>(i)] - holes_[static_cast<size_t>(h)]);
+    return slopes;
+  }
 
   /// Takes some of the mesh's vertices as samples, weighted by the area of their triangles.
   void set_up_energy() {
@@ -77,18 +114,21 @@ class HarArapDeformer final : public Deformer {
       total += sample.area;
     }
     for (double& weight : weights) weight = std::sqrt(weight / total);
-    gradient_ = basis_.values(points, 1);
+    gradient_.resize(static_cast<Index>(points.size()), basis_.size() + holes());
+    gradient_ << basis_.values(points, 1), logarithm_slopes(points);
     for (size_t i = 0; i < points.size(); ++i) gradient_.row(static_cast<Index>(i)) *= weights[i];
     weights_ = Eigen::Map<const VectorXd>(weights.data(), static_cast<Index>(weights.size()));
   }
 
-  /// Sets up the normal matrices for the unknowns (Re Phi, Im Phi, Re Psi, Im Psi). At the handles,
-  /// f = C Phi + conj(C Psi).
+  Index holes() const { return static_cast<Index>(holes_.size()); }
+
+  /// Sets up the normal matrices for the unknowns (Re Phi, Im Phi, Re Psi, Im Psi, Re c, Im c). At
+  /// the handles, f = C Phi + conj(C Psi) + ln|z - a| c.
   void set_up_handles() {
     held_ = basis_.values(handles_.rest());
-    const Index n = basis_.size(), h = held_.rows();
+    const Index n = basis_.size(), h = held_.rows(), all = 4 * n + 2 * holes();
     handle_weight_ = kHandlePull / (static_cast<double>(std::max<Index>(h, 1)) * size_ * size_);
-    MatrixXd rows(4 * n, 2 * h);  // columns: Re f, Im f of each handle
+    MatrixXd rows = MatrixXd::Zero(all, 2 * h);  // columns: Re f, Im f of each handle
     rows.topLeftCorner(n, h) = held_.real().transpose();
     rows.block(n, 0, n, h) = -held_.imag().transpose();
     rows.block(2 * n, 0, n, h) = held_.real().transpose();
@@ -97,16 +137,29 @@ class HarArapDeformer final : public Deformer {
     rows.block(n, h, n, h) = held_.real().transpose();
     rows.block(2 * n, h, n, h) = -held_.imag().transpose();
     rows.block(3 * n, h, n, h) = -held_.real().transpose();
+    const MatrixXd logs = logarithms(handles_.rest());
+    rows.block(4 * n, 0, holes(), h) = logs.transpose();
+    rows.block(4 * n + holes(), h, holes(), h) = logs.transpose();
     held_rows_ = rows;
-    MatrixXd shared = kDefinite / (size_ * size_) * MatrixXd::Identity(4 * n, 4 * n);
+    MatrixXd shared = kDefinite / (size_ * size_) * MatrixXd::Identity(all, all);
     add_gram(std::sqrt(handle_weight_) * rows, 2 * h, 0, shared);
     const MatrixXc gram = gradient_.adjoint() * gradient_;
-    MatrixXd real(2 * n, 2 * n);
+    const Index e = gram.rows();
+    MatrixXd real(2 * e, 2 * e);
     real << gram.real(), -gram.imag(), gram.imag(), gram.real();
+    // The positions of the real unknowns of (Phi, c), or of (Psi, conj(c)), among all unknowns.
+    const auto position = [&](Index i, Index first) {
+      const Index part = i / e, k = i % e;
+      return k < n ? first + part * n + k : 4 * n + part * holes() + k - n;
+    };
     const auto factored = [&](double phi_weight, Cholesky& out) {
       MatrixXd normal = shared;
-      normal.topLeftCorner(2 * n, 2 * n) += phi_weight * real;
-      normal.bottomRightCorner(2 * n, 2 * n) += real;
+      for (Index i = 0; i < 2 * e; ++i)
+        for (Index j = 0; j < 2 * e; ++j) {
+          normal(position(i, 0), position(j, 0)) += phi_weight * real(i, j);
+          const bool flips = (i >= e + n) != (j >= e + n);  // Im c changes its sign
+          normal(position(i, 2 * n), position(j, 2 * n)) += flips ? -real(i, j) : real(i, j);
+        }
       check(out.factor(normal), "har_arap: the energy is definite");
     };
     factored(1, rigid_);
@@ -125,8 +178,10 @@ class HarArapDeformer final : public Deformer {
 
   Found unknowns(const VectorXd& x) const {
     Found found;
-    found.phi = complex_of(x.head(2 * basis_.size()));
-    found.psi = complex_of(x.tail(2 * basis_.size()));
+    const Index n = basis_.size();
+    found.phi = complex_of(x.head(2 * n));
+    found.psi = complex_of(x.segment(2 * n, 2 * n));
+    found.logs = complex_of(x.tail(2 * holes()));
     return found;
   }
 
@@ -135,15 +190,18 @@ class HarArapDeformer final : public Deformer {
     int iteration = 0;
     for (double moved = 1; iteration < most && moved > kStill; ++iteration) {
       throw_if_stopped(stop);
-      VectorXc turn = gradient_ * found.phi;  // `gradient_` includes the weights
+      VectorXc turn = gradient_.leftCols(n) * found.phi;  // `gradient_` includes the weights
+      if (!holes_.empty()) turn += gradient_.rightCols(holes()) * found.logs;
       for (Index i = 0; i < turn.size(); ++i) {
         const double size = std::abs(turn[i]);
         turn[i] = size > 0 ? weights_[i] * turn[i] / size : Complex(weights_[i]);
       }
       const VectorXc pull = gradient_.adjoint() * turn;
       VectorXd right = handles;
-      right.segment(0, n) += pull.real();
-      right.segment(n, n) += pull.imag();
+      right.segment(0, n) += pull.head(n).real();
+      right.segment(n, n) += pull.head(n).imag();
+      right.segment(4 * n, holes()) += pull.tail(holes()).real();
+      right.segment(4 * n + holes(), holes()) += pull.tail(holes()).imag();
       Found next = unknowns(rigid_.solve(right));
       moved = (next.phi - found.phi).cwiseAbs().maxCoeff() / size_;
       found = std::move(next);
@@ -166,7 +224,8 @@ class HarArapDeformer final : public Deformer {
   HandlePoints handles_;
   BoundaryBasis basis_;
   double size_ = 1, handle_weight_ = 1;
-  MatrixXc gradient_, held_;  ///< C' at the energy's samples, weighted; C at the handles
+  Points holes_;              ///< a point in each hole
+  MatrixXc gradient_, held_;  ///< Phi' at the energy's samples, weighted; C at the handles
   MatrixXd held_rows_;
   VectorXd weights_;
   PlanarMatrix<double> values_, slopes_;

@@ -4,7 +4,7 @@
 
 #include "core/angles/hilbert.h"
 #include "core/cauchy/cauchy.h"
-#include "core/geometry/polyline.h"
+#include "core/geometry/orientation.h"
 #include "core/methods/real_coordinates.h"
 #include "core/methods/rows.h"
 
@@ -24,12 +24,9 @@ RealParts control_weights(const Cage& cage) {
 /// Harmonic coordinates h, computed as the real parts of holomorphic functions g.
 class HarmonicCoordinates final : public RealCoordinates {
  public:
-  /// `cage` must be counter-clockwise. Outside the cage, the functions are continued linearly.
+  /// `cage` must be oriented. Outside the cage, the functions are continued linearly.
   explicit HarmonicCoordinates(const Cage& cage)
-      : cage_(cage),
-        flat_(flattened(cage)),
-        edge_(flat_.points, true),
-        hilbert_(cage, control_weights(cage)) {
+      : cage_(cage), flat_(flattened(cage)), hilbert_(cage, control_weights(cage)) {
     for (Index e = 0; e < cage.size(); ++e) segments_.emplace_back(cage.controls(e));
   }
 
@@ -43,7 +40,8 @@ class HarmonicCoordinates final : public RealCoordinates {
         continue;
       }
       outside.push_back(static_cast<Index>(places.size()));
-      const BoundaryPoint foot = nearest(z);
+      const NearestPoint near = nearest_on_polygon(flat_, z);
+      const BoundaryPoint foot = flat_.on_edge(near.edge, near.t);
       constexpr double kLeast =
           0.02;  // parameter distance from a segment's ends, where slopes may be infinite
       const Complex on = position_of(cage_, foot),
@@ -65,28 +63,17 @@ class HarmonicCoordinates final : public RealCoordinates {
   /// Returns whether z is inside the cage or on its boundary.
   bool is_inside(Complex z) const {
     if (contact_of(segments_, z)) return true;
-    return is_straight(cage_) ? winding_number(flat_.points, z) != 0 : contains(cage_, z);
-  }
-
-  BoundaryPoint nearest(Complex z) const {
-    const Polyline::Nearest near = edge_.nearest(z);
-    const size_t i = static_cast<size_t>(near.segment), next = (i + 1) % flat_.locations.size();
-    const auto& [segment, from] = flat_.locations[i];
-    const double to =
-        flat_.locations[next].segment == segment && next > 0 ? flat_.locations[next].t : 1;
-    return {segment, from + near.parameter * (to - from)};
+    return is_straight(cage_) ? encloses(flat_, z) : contains(cage_, z);
   }
 
   Cage cage_;
   FlatCage flat_;
-  Polyline edge_;
   HilbertCoordinates hilbert_;
   std::vector<SegmentPolynomial> segments_;
 };
 
 std::unique_ptr<Deformer> make_harmonic(const Rest& rest, const Deformer*) {
-  return real_deformer(rest,
-                       std::make_shared<const HarmonicCoordinates>(counter_clockwise(rest.cage)));
+  return real_deformer(rest, std::make_shared<const HarmonicCoordinates>(oriented(rest.cage)));
 }
 
 }  // namespace

@@ -49,10 +49,7 @@ PointMap::Value SumMap::at(Complex z) const {
 }
 
 void check_pose(const Rest& rest, const Pose& pose) {
-  if (pose.cage.size() != rest.cage.size())
-    throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(pose.cage.size()) +
-                                          " segments, but the rest cage has " +
-                                          std::to_string(rest.cage.size()) + "; they must agree");
+  check_same_loops(rest.cage, pose.cage);
   for (Index i = 0; i < pose.cage.size(); ++i)
     if (pose.cage.degree(i) < 1 || pose.cage.degree(i) > rest.cage.degree(i))
       throw Error(ErrorKind::bad_input, "posed segment " + std::to_string(i + 1) + " has " +

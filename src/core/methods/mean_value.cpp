@@ -3,6 +3,7 @@
 // negative beyond reflex corners.
 #include <algorithm>
 
+#include "core/geometry/orientation.h"
 #include "core/methods/real_coordinates.h"
 #include "core/methods/rows.h"
 
@@ -29,24 +30,27 @@ Dual root(const Dual& a) {
   return {r, a.x / (2 * r), a.y / (2 * r)};
 }
 
-/// The mean value coordinates of a polygon's vertices at z, which must not be a vertex.
+/// The mean value coordinates of an oriented polygon's vertices at z, which must not be a vertex.
 ///
 /// All weights are multiplied by the distance of the nearest vertex and, if an edge subtends more
 /// than a right angle at z, by the cotangent of half the widest angle. This keeps all terms
 /// bounded, even on the edges.
-std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
+std::vector<Dual> mean_value_coordinates(PolygonView polygon, Complex z) {
   struct Side {
     Dual x, y, length;
   };
   std::vector<Side> sides;
-  for (const Complex& vertex : polygon) {
+  for (const Complex& vertex : polygon.points()) {
     const Dual x{(vertex - z).real(), -1, 0}, y{(vertex - z).imag(), 0, -1};
     sides.push_back({x, y, root(x * x + y * y)});
   }
   const auto nearest_side =
       std::ranges::min_element(sides, {}, [](const Side& s) { return s.length.value; });
   const Dual nearest = nearest_side->length;
-  const size_t n = polygon.size();
+  const size_t n = sides.size();
+  const auto after = [&](size_t i) {
+    return static_cast<size_t>(polygon.loops().next(static_cast<Index>(i)));
+  };
   struct Angle {
     Dual along, across, product;
     /// The tangent of half the angle, computed without cancellation.
@@ -57,7 +61,7 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   };
   std::vector<Angle> angles;
   for (size_t i = 0; i < n; ++i) {
-    const Side &a = sides[i], &b = sides[(i + 1) % n];
+    const Side &a = sides[i], &b = sides[after(i)];
     angles.push_back({a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x, a.length * b.length});
   }
   const size_t widest = static_cast<size_t>(
@@ -71,9 +75,9 @@ std::vector<Dual> mean_value_coordinates(const Points& polygon, Complex z) {
   for (size_t i = 0; i < n; ++i) {
     const Dual half = is_wide && i == widest ? Dual{1, 0, 0} : angles[i].tangent() * scale;
     const Dual start = half * (nearest / sides[i].length),
-               end = half * (nearest / sides[(i + 1) % n].length);
+               end = half * (nearest / sides[after(i)].length);
     weights[i] = weights[i] + start;
-    weights[(i + 1) % n] = weights[(i + 1) % n] + end;
+    weights[after(i)] = weights[after(i)] + end;
     sum = sum + start + end;
   }
   // The weight of the nearest vertex is 1 minus all other weights. The usual formula would lose
@@ -95,7 +99,7 @@ class MeanValueCoordinates final : public RealCoordinates {
  public:
   explicit MeanValueCoordinates(const Cage& cage)
       : flat_(flattened(cage)),
-        polygon_(polygon_cage(flat_.points)),
+        polygon_(polygon_cage(flat_)),
         controls_(weights_at(cage, flat_.locations)) {}
 
   MatrixXc at(std::span<const Complex> points, int order) const override {
@@ -116,7 +120,7 @@ class MeanValueCoordinates final : public RealCoordinates {
       }
       z = point_inside_vertex(polygon_, z);
     }
-    const std::vector<Dual> weights = mean_value_coordinates(flat_.points, z);
+    const std::vector<Dual> weights = mean_value_coordinates(flat_, z);
     for (Index c = 0; c < row.size(); ++c) {
       const Dual& weight = weights[static_cast<size_t>(c)];
       row[c] = order == 0 ? Complex(weight.value) : Complex(weight.x, -weight.y);
@@ -130,8 +134,7 @@ class MeanValueCoordinates final : public RealCoordinates {
 };
 
 std::unique_ptr<Deformer> make_mean_value(const Rest& rest, const Deformer*) {
-  return real_deformer(rest,
-                       std::make_shared<const MeanValueCoordinates>(counter_clockwise(rest.cage)));
+  return real_deformer(rest, std::make_shared<const MeanValueCoordinates>(oriented(rest.cage)));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "core/cauchy/cauchy_array.h"
 #include "core/cauchy/cauchy_map.h"
-#include "core/methods/acting_pins.h"
+#include "core/maps/acting_pins.h"
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
@@ -218,6 +218,7 @@ Method outline_method() {
       .uses_outline = true,
       .iterates = true,
       .reproduces = Method::Motions::none,
+      .allows_holes = false,
       .make = make_outline,
   };
 }

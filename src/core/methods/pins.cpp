@@ -13,7 +13,8 @@
 
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
-#include "core/methods/acting_pins.h"
+#include "core/geometry/orientation.h"
+#include "core/maps/acting_pins.h"
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
@@ -29,7 +30,8 @@ Cage basis_cage(const Cage& cage) {
   const double step = perimeter(outline_of(cage)) / kBasisControls;
   Cage basis;
   for (Index e = 0; e < cage.size(); ++e) {
-    const Points ends{cage.vertex(e), cage.vertex(e + 1)};
+    if (std::ranges::binary_search(cage.holes, e)) basis.holes.push_back(basis.size());
+    const Points ends{cage.vertex(e), cage.end_vertex(e)};
     Points controls = is_straight(cage, e) ? ends : cage.controls(e);
     const double controls_each = static_cast<double>(controls.size()) - 1;
     double length = 0;
@@ -69,7 +71,8 @@ struct PinBasis {
   bool own;           ///< whether the basis is the cage itself
   double length = 1;  ///< L = perimeter / 2 pi, the unit of all energies
   PlanarMatrix<T> cage_value, value;
-  MatrixXc factor;  ///< upper triangular R
+  std::vector<Index> kept;  ///< the independent columns of the basis
+  MatrixXc factor;          ///< upper triangular R, for these columns
 
   PinBasis(const Rest& rest, bool own_controls)
       : cage(rest.cage),
@@ -79,22 +82,27 @@ struct PinBasis {
     length = perimeter(outline_of(basis)) / (2 * kPi);
     cage_value = planar_coordinates<T>(cage, samples, 0);
     value = planar_coordinates<T>(basis, samples, 0);
-    const Index n = basis.control_count();
-    MatrixXc rows(n + 2, n);
-    rows.topRows(n) = cauchy_coordinates(basis, smoothness_points(basis), 2) *
-                      (length * length / std::sqrt(static_cast<double>(n)));
+    kept = independent_controls(basis);
+    const Index m = basis.control_count(), n = static_cast<Index>(kept.size());
+    MatrixXc rows(m + 2, n);
+    rows.topRows(m) = independent(cauchy_coordinates(basis, smoothness_points(basis), 2)) *
+                      (length * length / std::sqrt(static_cast<double>(m)));
     // The energy of affine maps is zero; two rows at an inner point make R invertible. They do not
     // change the minimizer, because the affine part is solved for separately.
     const Complex anchor = inner_point();
-    rows.row(n) = cauchy_coordinates(basis, std::span(&anchor, 1), 0).row(0);
-    rows.row(n + 1) = length * cauchy_coordinates(basis, std::span(&anchor, 1), 1).row(0);
+    rows.row(m) = independent(cauchy_coordinates(basis, std::span(&anchor, 1), 0));
+    rows.row(m + 1) = length * independent(cauchy_coordinates(basis, std::span(&anchor, 1), 1));
     const Eigen::HouseholderQR<MatrixXc> qr(rows);
     factor = qr.matrixQR().topRows(n).template triangularView<Eigen::Upper>();
   }
 
+  MatrixXc independent(const MatrixXc& rows) const {
+    return kept.size() == static_cast<size_t>(rows.cols()) ? rows : rows(Eigen::all, kept).eval();
+  }
+
   /// Returns the grid point that is deepest inside the outline.
   Complex inner_point() const {
-    const Points outline = outline_of(basis);
+    const Polygon outline = outline_of(basis);
     const Box box = box_of(outline);
     Complex best;
     double depth = -1;
@@ -102,11 +110,11 @@ struct PinBasis {
     for (int i = 1; i < kGrid; ++i)
       for (int j = 1; j < kGrid; ++j) {
         const Complex z(box.left + box.width() * i / kGrid, box.bottom + box.height() * j / kGrid);
-        if (winding_number(outline, z) == 0) continue;
+        if (!encloses(outline, z)) continue;
         if (const double here = nearest_on_polygon(outline, z).distance; here > depth)
           best = z, depth = here;
       }
-    return depth > 0 ? best : 0.5 * (outline[0] + outline[1]);
+    return depth > 0 ? best : 0.5 * (outline.points[0] + outline.points[1]);
   }
 };
 
@@ -202,13 +210,13 @@ class PinsDeformer final : public LinearDeformer<T> {
   /// the nearest segment's length.
   Points inset(Points points) const {
     constexpr double kOn = 0.05, kBy = 0.2;
-    const Points outline = outline_of(basis_->basis, 4);
-    const double inward = signed_area(outline) > 0 ? 1 : -1;
+    const Polygon loops = outline_of(oriented(basis_->basis), 4);
+    const PolygonView outline = loops;
     for (Complex& z : points) {
       const NearestPoint near = nearest_on_polygon(outline, z);
-      const Complex side = outline[(near.edge + 1) % outline.size()] - outline[near.edge];
+      const Complex side = outline[outline.loops().next(near.edge)] - outline[near.edge];
       if (near.distance > kOn * std::abs(side)) continue;
-      const Complex moved = z + inward * kBy * kI * side;
+      const Complex moved = z + kBy * kI * side;
       if (contains(basis_->basis, moved)) z = moved;
     }
     return points;
@@ -230,10 +238,9 @@ class PinsDeformer final : public LinearDeformer<T> {
     const Index p = static_cast<Index>(places.size()), q = static_cast<Index>(turning.size()),
                 m = p + q;
     const Cage& basis = basis_->basis;
-    const Index n = basis.control_count();
     const double length = basis_->length;
-    MatrixXc rows(m, n);
-    rows.topRows(p) = cauchy_coordinates(basis, places, 0);
+    MatrixXc rows(m, static_cast<Index>(basis_->kept.size()));
+    rows.topRows(p) = basis_->independent(cauchy_coordinates(basis, places, 0));
     cage_at_pins_.resize(m, this->rest_.cage.control_count());
     cage_at_pins_.topRows(p) = cauchy_coordinates(this->rest_.cage, places, 0);
     if (q > 0) {
@@ -242,7 +249,7 @@ class PinsDeformer final : public LinearDeformer<T> {
       const auto slopes = [&](const Cage& cage) {
         return as_complex(planar_coordinates<double>(cage, turning, 1));
       };
-      rows.bottomRows(q) = length * slopes(basis);
+      rows.bottomRows(q) = length * basis_->independent(slopes(basis));
       cage_at_pins_.bottomRows(q) = length * slopes(this->rest_.cage);
     }
     // The affine maps 1 and (z - center) / L; a single pin without a frame uses only the first.
@@ -268,8 +275,12 @@ class PinsDeformer final : public LinearDeformer<T> {
     if (!solution.allFinite())
       throw Error(ErrorKind::bad_input,
                   "the pins contradict each other; move one away from the others");
-    const MatrixXc coefficients =
+    const MatrixXc solved =
         basis_->factor.template triangularView<Eigen::Upper>().solve(adjoint * solution.topRows(m));
+    const Index n = basis.control_count();
+    MatrixXc coefficients = MatrixXc::Zero(n, m);
+    for (size_t k = 0; k < basis_->kept.size(); ++k)
+      coefficients.row(basis_->kept[k]) = solved.row(static_cast<Index>(k));
     affine_ = solution.bottomRows(affine);
     coefficients_ = PlanarMatrix<T>(n, m);
     coefficients_.re = coefficients.real().template cast<T>();
@@ -311,7 +322,7 @@ std::unique_ptr<Deformer> make_pins(const Rest& rest, const Deformer* previous) 
 Method pins_method() {
   return {
       .id = "pins",
-      .label = "Elastic pins",
+      .label = "Elastic",
       .hint = "Drag pins, and the picture follows smoothly. Cage points also work.",
       .parameters =
           {toggle("exact", "Exact",

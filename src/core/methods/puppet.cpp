@@ -1,7 +1,11 @@
 // Method `puppet`: pins move parts of the picture, which keeps its sizes and shapes as far as
 // possible and cannot fold. The energy is the symmetric Dirichlet energy, in unknowns in which it
 // is convex.
+#include <algorithm>
+#include <mutex>
+
 #include "core/error.h"
+#include "core/geometry/simplify.h"
 #include "core/geometry/stiffness.h"
 #include "core/isometric/isometric_space.h"
 #include "core/isometric/mesh_display.h"
@@ -9,6 +13,7 @@
 #include "core/methods/bounded_points.h"
 #include "core/methods/notes.h"
 #include "core/methods/parameters.h"
+#include "core/methods/proved_motion.h"
 #include "core/methods/puppet_handles.h"
 #include "core/methods/rows.h"
 
@@ -20,16 +25,22 @@ constexpr size_t kSamplesInside = 300;
 
 class PuppetDeformer final : public Deformer {
  public:
-  explicit PuppetDeformer(const Rest& rest)
+  /// Shares what depends on the domain alone with `previous`, which may be null.
+  PuppetDeformer(const Rest& rest, const PuppetDeformer* previous)
       : rest_(rest),
         method_(method_named("puppet")),
-        basis_(std::make_shared<const BoundaryBasis>(rest.cage, size_for(rest.cage),
-                                                     kBoundarySamples * size_for(rest.cage))),
-        handles_(rest_, *basis_, {.frame_weight = value("frame_weight")}),
-        display_(*basis_, *rest_.mesh) {
+        handles_(rest_, {.frame_weight = value("frame_weight")}) {
+    if (previous && previous->rest_.cage == rest.cage && previous->rest_.mesh == rest.mesh &&
+        previous->handles_.moves_cage() == handles_.moves_cage()) {
+      basis_ = previous->basis_;
+      display_ = previous->display_;
+    } else {
+      basis_ = basis_for(handles_.moves_cage() ? rest.cage : thinned(rest.cage));
+      display_ = std::make_shared<const MeshDisplay>(*basis_, *rest_.mesh);
+    }
     const std::vector<AreaSample> inner = inner_samples();
-    space_ = std::make_unique<IsometricSpace>(basis_, *rest_.mesh, handles_.isometric(), inner,
-                                              stiffness(inner), energy());
+    space_ = std::make_shared<const IsometricSpace>(basis_, *rest_.mesh, handles_.isometric(),
+                                                    inner, stiffness(inner), energy(), bounds());
     for (const Complex& z : handles_.isometric().stations)
       locations_.push_back(locate_near(*rest_.mesh, z));
   }
@@ -40,7 +51,8 @@ class PuppetDeformer final : public Deformer {
     const auto* before = dynamic_cast<const Found*>(from);
     const auto found = std::make_shared<Found>();
     found->basis = basis_;
-    if (options.draft && before && before->basis == basis_)
+    found->space = space_;
+    if (options.draft && before && before->space == space_)
       found->map = space_->followed(target, settings(), before->map);
     else
       found->map = space_->solved(target, settings(options.stop), handles_.turns(pose));
@@ -49,7 +61,7 @@ class PuppetDeformer final : public Deformer {
     out.iterations = found->map.solution.iterations;
     out.turns.resize(rest_.pins.size());
     for (size_t k = 0; k < handles_.pins().size(); ++k)
-      out.turns[handles_.pins()[k]] = found->map.turns[static_cast<Index>(k)];
+      out.turns[handles_.pins()[k]] = found->map.turns[k];
     if (!options.draft && out.status == SampledMap::Status::certified)
       out.extremes = space_->extremes(found->map.map);
     out.note = note(found->map, out);
@@ -57,6 +69,19 @@ class PuppetDeformer final : public Deformer {
       out.note += ". Untwist would relax it";
     out.solution = found;
     return out;
+  }
+
+  std::shared_ptr<const ProvedMotion> motion() const override {
+    std::call_once(motion_once_, [this] {
+      MotionSetting setting{basis_, rest_.mesh, handles_.pins(), {}, {}};
+      for (const size_t i : setting.pins) setting.positions.push_back(rest_.pins[i].position);
+      setting.map_of = [basis = basis_](const Solution& solution) -> const LogMap* {
+        const auto* found = dynamic_cast<const Found*>(&solution);
+        return found && found->basis == basis ? &found->map.map : nullptr;
+      };
+      motion_ = proved_motion(std::move(setting));
+    });
+    return motion_;
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
@@ -68,29 +93,48 @@ class PuppetDeformer final : public Deformer {
  private:
   struct Found : Solution {
     std::shared_ptr<const BoundaryBasis> basis;
+    std::shared_ptr<const IsometricSpace> space;
     IsometricMap map;
   };
 
   IsometricSpace::Settings settings(std::stop_token stop = {}) const {
-    return {value("pin_weight"), value("exact") != 0, std::move(stop)};
+    return {value("pin_weight"), value("exact") != 0, false, std::move(stop)};
   }
   /// Whether the map that the turns lead to costs much more than the map without them.
   bool is_twisted(const IsometricTarget& target, const Pose& pose, const std::stop_token& stop,
                   const IsometricMap& map) const {
     constexpr double kStrained = 4, kClearly = 0.7;  // energies; 2 is rigid
     if (!map.certificate.holds || map.solution.energy < kStrained) return false;
-    if (const VectorXd turns = handles_.turns(pose); turns.isZero()) return false;
-    return space_->solved(target, settings(stop)).solution.energy < kClearly * map.solution.energy;
+    if (std::ranges::all_of(handles_.turns(pose),
+                            [](const auto& turn) { return turn.value_or(0) == 0; }))
+      return false;
+    IsometricSpace::Settings quick = settings(stop);
+    quick.exact = false;
+    quick.estimates = true;
+    return space_->solved(target, quick).solution.energy < kClearly * map.solution.energy;
   }
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
 
-  static int size_for(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
+  /// The cage without vertices that the shape does not need.
+  static Cage thinned(const Cage& cage) {
+    constexpr double kTolerance = 0.002;  // in units of the size
+    return thinned_around(cage, kTolerance * box_of(vertices_of(cage)).diagonal());
+  }
+  static std::shared_ptr<const BoundaryBasis> basis_for(const Cage& domain) {
+    const int size = BoundaryBasis::usual_size(2 * domain.size());
+    return std::make_shared<const BoundaryBasis>(domain, size, kBoundarySamples * size);
+  }
 
   IsometricEnergy energy() const {
     const std::string form = choice(method_, rest_.parameters, "energy");
     if (form == "exponential") return {IsometricEnergy::Form::exponential, value("sharpness")};
     if (form == "power") return {IsometricEnergy::Form::power, value("sharpness")};
     return {};
+  }
+
+  std::optional<Bounds> bounds() const {
+    if (value("limited") == 0) return {};
+    return Bounds{value("k"), value("sigma"), value("Sigma")};
   }
 
   std::vector<AreaSample> inner_samples() const {
@@ -117,11 +161,31 @@ class PuppetDeformer final : public Deformer {
   /// The map at any point, exact up to rounding.
   std::unique_ptr<BoundedPointMap> points_of(const IsometricTarget& target,
                                              const IsometricMap& map) const {
-    auto points = std::make_unique<BoundedPointMap>(
-        basis_, rest_.mesh, map.map, integrated_along(display_.tree(), *basis_, map.map));
+    VectorXc f = integrated_along(display_->tree(), *basis_, map.map);
+    f -= space_->loops().correction(display_->tree(), map.solution.gaps);
+    auto points = std::make_unique<BoundedPointMap>(basis_, rest_.mesh, map.map, std::move(f));
     points->move(handles_.image(0, target, map.solution.offsets) -
                  points->at(handles_.isometric().stations[0]).f);
     return points;
+  }
+
+  /// The map at the mesh's vertices, from the matrices for display, moved to the stations.
+  void answer_draft(const IsometricTarget& target, EvalOptions options, const IsometricMap& map,
+                    SampledMap& out) const {
+    MeshDisplay::Values values = display_->values(map.map);
+    out.f =
+        Eigen::Map<const VectorXc>(rest_.samples.data(), static_cast<Index>(rest_.samples.size())) +
+        values.moved;
+    if (map.solution.gaps.size() > 0)
+      out.f -= space_->loops().correction(display_->tree(), map.solution.gaps);
+    Complex off = 0;
+    for (size_t i = 0; i < locations_.size(); ++i)
+      off += handles_.image(static_cast<Index>(i), target, map.solution.offsets) -
+             locations_[i].in(*rest_.mesh, as_span(out.f));
+    if (!locations_.empty()) out.f.array() += off / static_cast<double>(locations_.size());
+    if (!options.derivatives) return;
+    out.fz = std::move(values.first.phi);
+    out.fzbar = values.first.psi.conjugate();
   }
 
   void answer(const IsometricTarget& target, EvalOptions options, const Found& found,
@@ -139,21 +203,20 @@ class PuppetDeformer final : public Deformer {
       out.fzbar = VectorXc::Zero(count);
       return;
     }
-    if (rest_.samples == rest_.mesh->vertices && rest_.precision == Precision::single) {
-      MeshDisplay::Values values = display_.values(map.map);
-      if (options.draft) {
-        out.f = z + values.moved;
-        Complex off = 0;
-        for (size_t i = 0; i < locations_.size(); ++i)
-          off += handles_.image(static_cast<Index>(i), target, map.solution.offsets) -
-                 locations_[i].in(*rest_.mesh, as_span(out.f));
-        if (!locations_.empty()) out.f.array() += off / static_cast<double>(locations_.size());
-      } else {
-        out.f = points_of(target, map)->at_vertices();
-      }
+    if (rest_.samples == rest_.mesh->vertices) {
+      const bool single = rest_.precision == Precision::single;
+      if (options.draft && single) return answer_draft(target, options, map, out);
+      out.f = points_of(target, map)->at_vertices();
       if (!options.derivatives) return;
-      out.fz = std::move(values.first.phi);
-      out.fzbar = values.first.psi.conjugate();
+      if (single) {
+        MeshDisplay::Values values = display_->values(map.map);
+        out.fz = std::move(values.first.phi);
+        out.fzbar = values.first.psi.conjugate();
+      } else {
+        Slopes slopes = slopes_at(*basis_, map.map, rest_.samples);
+        out.fz = std::move(slopes.fz);
+        out.fzbar = std::move(slopes.fzbar);
+      }
       return;
     }
     SampledMap at = points_of(target, map)->at(rest_.samples);
@@ -181,28 +244,38 @@ class PuppetDeformer final : public Deformer {
     if (rest_.samples == rest_.mesh->vertices)
       if (const int flipped = flipped_triangles(*rest_.mesh, out.f); flipped > 0)
         text = coarse_mesh_text(flipped);
+    const double least = kMissed * box_of(rest_.mesh->vertices).diagonal();
     double farthest = 0;
     size_t which = 0;
-    for (size_t i = 0; i < handles_.pins().size(); ++i)
-      if (const double off = std::abs(map.solution.offsets[static_cast<Index>(i)]); off > farthest)
-        farthest = off, which = handles_.pins()[i];
-    if (farthest >= kMissed * box_of(rest_.mesh->vertices).diagonal())
-      text += short_pin_text(which, farthest) + strain_text(out.extremes);
+    int missed = 0;
+    for (size_t i = 0; i < handles_.pins().size(); ++i) {
+      const double off = std::abs(map.solution.offsets[static_cast<Index>(i)]);
+      missed += off >= least;
+      if (off > farthest) farthest = off, which = handles_.pins()[i];
+    }
+    if (missed > 0) text += short_pin_text(which, farthest);
+    if (missed > 1)
+      text += missed == 2 ? ", and another pin by less"
+                          : ", and " + std::to_string(missed - 1) + " other pins by less";
+    if (missed > 0)
+      text += value("limited") != 0 ? ". The limits allow no more" : strain_text(out.extremes);
     if (!handles_.note().empty()) text += ". " + handles_.note();
     return text;
   }
 
   Rest rest_;
   const Method& method_;
-  std::shared_ptr<const BoundaryBasis> basis_;
   PuppetHandles handles_;
-  MeshDisplay display_;
-  std::unique_ptr<IsometricSpace> space_;
+  std::shared_ptr<const BoundaryBasis> basis_;
+  std::shared_ptr<const MeshDisplay> display_;
+  std::shared_ptr<const IsometricSpace> space_;
+  mutable std::once_flag motion_once_;
+  mutable std::shared_ptr<const ProvedMotion> motion_;
   std::vector<Location> locations_;  ///< of the stations
 };
 
-std::unique_ptr<Deformer> make_puppet(const Rest& rest, const Deformer*) {
-  return std::make_unique<PuppetDeformer>(rest);
+std::unique_ptr<Deformer> make_puppet(const Rest& rest, const Deformer* previous) {
+  return std::make_unique<PuppetDeformer>(rest, dynamic_cast<const PuppetDeformer*>(previous));
 }
 
 }  // namespace
@@ -220,13 +293,27 @@ Method puppet_method() {
            one_of("energy", "Extremes",
                   "How much the strongest local changes of size and shape cost",
                   {{"plain", "normal"}, {"power", "costly"}, {"exponential", "very costly"}}),
-           by_decades("sharpness", "Cost",
-                      "Higher values lower the strongest change; not for normal", 1.5, 1, 4),
+           by_decades("sharpness", "Strength",
+                      "Higher values reduce the strongest change. No effect with normal.", 1.5, 1,
+                      4),
            by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 1e5,
                       1e2, 1e7),
            by_decades("frame_weight", "Rotation weight",
                       "Higher values meet the rotations and scales of pins more closely", 200, 1,
-                      10000)},
+                      10000),
+           toggle("limited", "Limits",
+                  "Keep the distortion within limits everywhere; pins then give way"),
+           used_with(
+               "limited", 1,
+               number("k", "Max shear", "Near 0, angles are kept; near 1, circles may become flat",
+                      0.7, 0.05, 0.99)),
+           used_with(
+               "limited", 1,
+               number("sigma", "Smallest size",
+                      "No length shrinks below this fraction of its original", 0.5, 0.01, 0.99)),
+           used_with("limited", 1,
+                     by_decades("Sigma", "Max growth", "No length grows by more than this factor",
+                                2, 1.01, 100))},
       .uses_pins = true,
       .uses_strokes = true,
       .uses_stiffness = true,

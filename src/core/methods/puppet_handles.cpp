@@ -1,8 +1,11 @@
 #include "core/methods/puppet_handles.h"
 
+#include <numeric>
+
 #include "core/error.h"
+#include "core/geometry/orientation.h"
 #include "core/geometry/polyline.h"
-#include "core/methods/acting_pins.h"
+#include "core/maps/acting_pins.h"
 #include "core/methods/linear.h"
 
 namespace holomorph {
@@ -15,9 +18,8 @@ void append(VectorXd& values, double value) {
 
 }  // namespace
 
-PuppetHandles::PuppetHandles(const Rest& rest, const BoundaryBasis& basis, const Settings& settings)
-    : rest_(rest) {
-  const double size = box_of(basis.samples()).diagonal();
+PuppetHandles::PuppetHandles(const Rest& rest, const Settings& settings) : rest_(rest) {
+  const double size = box_of(outline_of(rest.cage).points).diagonal();
   UsablePins usable = usable_pins(rest);
   note_ = std::move(usable.note);
   for (const size_t i : usable.used) {
@@ -28,7 +30,7 @@ PuppetHandles::PuppetHandles(const Rest& rest, const BoundaryBasis& basis, const
   for (const size_t i : usable.used)
     if (rest.pins[i].has_frame) add_frame(rest.pins[i], i, settings, size);
   add_strokes(size);
-  if (handles_.stations.empty()) add_cage(basis);
+  if (handles_.stations.empty()) add_cage();
 }
 
 void PuppetHandles::add_station(Complex z, double weight) {
@@ -77,17 +79,24 @@ void PuppetHandles::add_strokes(double size) {
   }
 }
 
-/// Every second sample of the boundary, with half the length to the next ones as its weight.
-void PuppetHandles::add_cage(const BoundaryBasis& basis) {
-  const std::vector<BoundaryPiece>& pieces = basis.pieces();
-  const size_t m = pieces.size();
-  double all = 0;
-  for (const BoundaryPiece& piece : pieces) all += std::abs(piece.end - piece.start);
-  for (size_t i = 0; i < m; i += 2) {
-    const BoundaryPiece &before = pieces[(i + m - 1) % m], &after = pieces[i];
-    add_station(after.start,
-                (std::abs(before.end - before.start) + std::abs(after.end - after.start)) / all);
-    cage_.push_back({after.segment, after.from});
+/// Points along the cage, with half the lengths to the next ones as their weights.
+void PuppetHandles::add_cage() {
+  constexpr double kStations = 300;
+  const Cage cage = oriented(rest_.cage);
+  const std::vector<double> lengths = lengths_of(cage);
+  const double all = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  for (Index e = 0; e < cage.size(); ++e) {
+    const double length = lengths[static_cast<size_t>(e)],
+                 before = lengths[static_cast<size_t>(cage.loops().before(e))];
+    const auto parts_for = [&](double own) {
+      return std::max(3.0, std::ceil(kStations * own / all));
+    };
+    const double parts = parts_for(length);
+    for (int k = 0; k < parts; ++k) {
+      const double behind = k > 0 ? length / parts : before / parts_for(before);
+      add_station(bezier_point(cage.controls(e), k / parts), 0.5 * (behind + length / parts) / all);
+      cage_.push_back({e, k / parts});
+    }
   }
 }
 
@@ -113,7 +122,7 @@ IsometricTarget PuppetHandles::target(const Pose& pose) const {
   if (!cage_.empty()) {
     const bool rests = pose.cage == rest_.cage;
     Cage cage = elevated_to(pose.cage, rest_.cage);
-    if (signed_area(outline_of(rest_.cage)) < 0) cage = reversed(cage);
+    cage = Orientation(rest_.cage).turned(cage);
     for (const auto& [segment, t] : cage_) {
       target.stations[row] = rests ? Complex(0)
                                    : bezier_point(cage.controls(segment), t) -
@@ -133,13 +142,9 @@ IsometricTarget PuppetHandles::target(const Pose& pose) const {
   return target;
 }
 
-VectorXd PuppetHandles::turns(const Pose& pose) const {
-  VectorXd turns(static_cast<Index>(pins_.size()));
-  for (size_t k = 0; k < pins_.size(); ++k) {
-    const std::optional<double>& turn = pose.pins[pins_[k]].turn;
-    if (!turn) return {};
-    turns[static_cast<Index>(k)] = *turn;
-  }
+Turns PuppetHandles::turns(const Pose& pose) const {
+  Turns turns;
+  for (const size_t i : pins_) turns.push_back(pose.pins[i].turn);
   return turns;
 }
 

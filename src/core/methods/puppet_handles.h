@@ -14,13 +14,15 @@ class PuppetHandles {
     double frame_radius = 0.03;  ///< of the disk, in units of the domain's diagonal
     double frame_weight = 1;
   };
-  PuppetHandles(const Rest& rest, const BoundaryBasis& basis, const Settings& settings);
+  PuppetHandles(const Rest& rest, const Settings& settings);
 
+  /// Whether the cage's boundary is prescribed.
+  bool moves_cage() const { return !cage_.empty(); }
   const IsometricHandles& isometric() const { return handles_; }
   /// Throws Error if check_pose does.
   IsometricTarget target(const Pose& pose) const;
-  /// The turns of the pins in a pose, one for each station of a pin; empty unless all are known.
-  VectorXd turns(const Pose& pose) const;
+  /// The turns of the pins in a pose, one for each station of a pin.
+  Turns turns(const Pose& pose) const;
   /// For each station of a pin, the pin's index. Pins are the first stations.
   const std::vector<size_t>& pins() const { return pins_; }
   /// The image of a station.
@@ -31,7 +33,7 @@ class PuppetHandles {
   void add_station(Complex z, double weight);
   void add_frame(const RestPin& pin, size_t index, const Settings& settings, double size);
   void add_strokes(double size);
-  void add_cage(const BoundaryBasis& basis);
+  void add_cage();
 
   Rest rest_;
   IsometricHandles handles_;

@@ -2,6 +2,8 @@
 // complex operators.
 #include "core/methods/real_coordinates.h"
 
+#include "core/geometry/orientation.h"
+
 namespace holomorph {
 namespace {
 
@@ -26,9 +28,7 @@ template <class T>
 class RealDeformer final : public LinearDeformer<T> {
  public:
   RealDeformer(const Rest& rest, std::shared_ptr<const RealCoordinates> coordinates)
-      : LinearDeformer<T>(rest),
-        coordinates_(std::move(coordinates)),
-        reversed_(signed_area(outline_of(rest.cage)) < 0) {
+      : LinearDeformer<T>(rest), coordinates_(std::move(coordinates)), orientation_(rest.cage) {
     this->value_ = planar(coordinates_->at(rest.samples, 0).real().template cast<Complex>());
   }
 
@@ -45,12 +45,7 @@ class RealDeformer final : public LinearDeformer<T> {
   }
 
   VectorXc controls(const Pose& pose) const override {
-    const VectorXc by = cage_displacement(this->rest_, pose);
-    if (!reversed_) return by;
-    const std::vector<Index> column = reversed_columns(this->rest_.cage);
-    VectorXc turned(by.size());
-    for (Index c = 0; c < by.size(); ++c) turned[column[static_cast<size_t>(c)]] = by[c];
-    return turned;
+    return orientation_.turned(this->rest_.cage, cage_displacement(this->rest_, pose));
   }
 
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
@@ -70,7 +65,7 @@ class RealDeformer final : public LinearDeformer<T> {
   }
 
   std::shared_ptr<const RealCoordinates> coordinates_;
-  bool reversed_;
+  Orientation orientation_;
   PlanarMatrix<T> slope_;
 };
 
@@ -91,8 +86,8 @@ MatrixXd weights_at(const Cage& cage, std::span<const BoundaryPoint> places) {
     for (int m = 0; m <= degree; ++m) {
       Points unit(static_cast<size_t>(degree) + 1, 0);
       unit[static_cast<size_t>(m)] = 1;
-      const Index column = (cage.control_offset(segment) + m) % cage.control_count();
-      weights(static_cast<Index>(i), column) += bezier_point(unit, t).real();
+      weights(static_cast<Index>(i), cage.control_index(segment, m)) +=
+          bezier_point(unit, t).real();
     }
   }
   return weights;

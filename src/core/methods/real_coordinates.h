@@ -5,7 +5,7 @@
 
 namespace holomorph {
 
-/// Real coordinates of a counter-clockwise cage: they sum to 1 and reproduce z.
+/// Real coordinates of an oriented cage: they sum to 1 and reproduce z.
 class RealCoordinates {
  public:
   virtual ~RealCoordinates() = default;
@@ -13,8 +13,7 @@ class RealCoordinates {
   virtual MatrixXc at(std::span<const Complex> points, int order) const = 0;
 };
 
-/// Creates a linear deformer for a rest. `coordinates` must belong to the rest's cage in
-/// counter-clockwise orientation.
+/// Creates a linear deformer for a rest. `coordinates` must belong to the rest's cage, oriented.
 std::unique_ptr<Deformer> real_deformer(const Rest& rest,
                                         std::shared_ptr<const RealCoordinates> coordinates);
 

@@ -10,7 +10,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/geometry/polyline.h"
-#include "core/methods/acting_pins.h"
+#include "core/maps/acting_pins.h"
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
@@ -260,8 +260,8 @@ class StrokesDeformer final : public Deformer {
       terms.push_back({with_psi(bent, Psi::alone), value("smoothness")});
       terms.push_back({with_psi(slopes, Psi::alone), stiffness_of(value("softness"))});
       // A constant can move between phi and psi. This term fixes it.
-      MatrixXc constant = MatrixXc::Zero(1, 2 * n);
-      constant.rightCols(n) = basis_->one().transpose();
+      MatrixXc constant = MatrixXc::Zero(1, 2 * basis_->unknowns());
+      constant.rightCols(basis_->unknowns()) = basis_->one().transpose();
       terms.push_back({std::move(constant)});
     }
     fit_.emplace(terms);
@@ -328,7 +328,7 @@ class StrokesDeformer final : public Deformer {
     found.fractions = targets->fractions();
     found.miss = fit.distance(on_strokes);
     found.unknowns = fit.unknowns();
-    const Index n = basis_->size();
+    const Index n = basis_->unknowns();
     found.phi = basis_->coefficients(found.unknowns.head(n));
     if (soft_) found.psi = basis_->coefficients(found.unknowns.tail(n).conjugate());
     return found;

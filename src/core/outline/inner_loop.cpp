@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/geometry/curve.h"
+#include "core/geometry/polygon.h"
 
 namespace holomorph {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/cauchy/cauchy.h"
 #include "core/geometry/deepest_point.h"
+#include "core/geometry/orientation.h"
 #include "core/outline/arc_length_start.h"
 #include "core/outline/inner_loop.h"
 #include "core/outline/outline_basis.h"
@@ -73,7 +74,7 @@ double difference(const Correspondence& a, const Correspondence& b) {
 OutlineFit::OutlineFit(const Cage& source, const Points& outline, const Points& pins,
                        const OutlineSettings& settings)
     : settings_(settings),
-      given_(counter_clockwise(source)),
+      given_(oriented(source)),
       frame_(frame_of(given_)),
       cage_(in(frame_, given_)),
       flat_(flattened(cage_)),
@@ -253,7 +254,7 @@ void OutlineFit::set_up_samples() {
   middles_.clear();
   sizes_.clear();
   for (Index e = 0; e < now_.basis.size(); ++e) {
-    const Complex direction = now_.basis.vertex(e + 1) - now_.basis.vertex(e);
+    const Complex direction = now_.basis.end_vertex(e) - now_.basis.vertex(e);
     // A curve has as many unknowns as its degree, and a proportional number of samples.
     const int degree = now_.basis.degree(e), count = kSamplesPerUnknown * degree;
     for (int k = 0; k < count; ++k) samples_.push_back({e, static_cast<double>(k) / count});

@@ -10,8 +10,8 @@
 
 #include "core/arithmetic.h"
 #include "core/error.h"
-#include "core/geometry/curve.h"
 #include "core/geometry/deepest_point.h"
+#include "core/geometry/polygon.h"
 #include "core/outline/disk_map.h"
 #include "core/outline/outline_samples.h"
 #include "core/outline/riemann.h"

@@ -3,6 +3,7 @@
 #include "edit/actions/icons.h"
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/curve_edits.h"
+#include "edit/edits/hole_edits.h"
 #include "edit/picture_cage.h"
 #include "edit/tools/tool.h"
 
@@ -102,6 +103,18 @@ std::vector<Action> cage_actions() {
           .run =
               [](Workspace& w) {
                 w.commit("All points as corners", with_all_corners(w.shown.deformation()));
+              },
+      },
+      {
+          .id = "cage.fill",
+          .label = "Fill holes",
+          .hint = "Remove the holes with selected points, or all holes of the cage",
+          .menu = "Cage",
+          .enabled = [](const Workspace& w) { return !w.shown.deformation().rest.holes.empty(); },
+          .run =
+              [](Workspace& w) {
+                w.commit("Fill holes", filled(w.shown.deformation(), w.selection));
+                w.prune_selection();
               },
       },
       {

@@ -251,7 +251,8 @@ std::vector<Action> edit_actions() {
       {
           .id = "edit.untwist",
           .label = "Untwist",
-          .hint = "Forget which way around parts have turned, and find the calmest way again",
+          .hint =
+              "Discard the stored rotations of parts and use the pose with the least distortion",
           .menu = "Edit",
           .enabled = has_turns,
           .run = untwist,

@@ -24,6 +24,12 @@ inline bool always(const Workspace&) {
 inline bool has_cage(const Workspace& w) {
   return w.shown.deformation().has_cage();
 }
+/// Whether there are other methods to compare the deformation's method with.
+inline bool can_be_compared(const Deformation& deformation) {
+  const Method& method = method_named(deformation.method);
+  return method.follows_others ||
+         (method.id == usual_method(MethodUse::puppet).id && !deformation.pins.empty());
+}
 inline bool is_bounded(const Workspace& w) {
   return method_named(w.shown.deformation().method).follows_others;
 }

@@ -101,10 +101,13 @@ std::vector<Action> view_actions() {
       },
       {
           .id = "view.compare",
-          .label = "Compare projections",
-          .hint = "Run four other methods on the same map with the same bounds",
+          .label = "Compare methods",
+          .hint = "Run other methods on the same pose and compare their figures",
           .menu = "View",
-          .enabled = [](const Workspace& w) { return has_cage(w) && is_bounded(w); },
+          .enabled =
+              [](const Workspace& w) {
+                return has_cage(w) && can_be_compared(w.shown.deformation());
+              },
           .run = ask<Request::compare>,
       },
       {

@@ -51,7 +51,7 @@ Deformation with_corner(Deformation deformation, Index vertex) {
   const auto way = [&](Index from, Index to) {
     double length = 0;
     for (Index v = from; v != to; v = (v + 1) % deformation.rest.size())
-      length += std::abs(deformation.rest.vertex(v + 1) - deformation.rest.vertex(v));
+      length += std::abs(deformation.rest.end_vertex(v) - deformation.rest.vertex(v));
     return length;
   };
   const double fraction =
@@ -128,6 +128,14 @@ void follow_erasure(std::vector<Corner>& corners, Index vertex) {
   std::erase_if(corners, [&](const Corner& corner) { return corner.vertex == vertex; });
   for (Corner& corner : corners) corner.vertex -= corner.vertex > vertex;
   if (corners.size() < 3) corners.clear();
+}
+
+void follow_erasure(std::vector<PoseCorner>& pose, const std::vector<Corner>& corners,
+                    Index vertex) {
+  const auto corner = std::ranges::find(corners, vertex, &Corner::vertex);
+  if (corner == corners.end() || pose.empty()) return;
+  pose.erase(pose.begin() + (corner - corners.begin()));
+  if (pose.size() < 3) pose.clear();
 }
 
 }  // namespace holomorph

@@ -35,5 +35,8 @@ Deformation with_tension(Deformation deformation, Index corner, double tension);
 /// Renumbers the corners after a vertex has been inserted into a segment or erased.
 void follow_insertion(std::vector<Corner>& corners, Index segment);
 void follow_erasure(std::vector<Corner>& corners, Index vertex);
+/// The same for the corners of a pose, given those of the deformation before the change.
+void follow_erasure(std::vector<PoseCorner>& pose, const std::vector<Corner>& corners,
+                    Index vertex);
 
 }  // namespace holomorph

@@ -13,10 +13,6 @@ Cage& cage_of(Deformation& deformation, EditMode mode) {
   return mode == EditMode::rest ? deformation.rest : deformation.pose;
 }
 
-Index wrapped(const Cage& cage, Index i) {
-  return (i % cage.size() + cage.size()) % cage.size();
-}
-
 void set_controls(Cage& cage, Index segment, Points controls) {
   controls.pop_back();
   cage.segments[segment] = std::move(controls);
@@ -31,7 +27,7 @@ void raise_to(Cage& cage, Index segment, int degree) {
 
 Tangents tangents_of(const Deformation& deformation, Index vertex, EditMode mode) {
   const Cage& cage = cage_of(deformation, mode);
-  const Index before = wrapped(cage, vertex - 1);
+  const Index before = cage.before(vertex);
   Tangents tangents;
   if (cage.degree(before) > 1)
     tangents.before = Handle{Handle::Kind::cage, before, cage.degree(before) - 1};
@@ -52,7 +48,7 @@ Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, E
                           bool breaks) {
   const Cage& cage = cage_of(deformation, mode);
   std::vector<std::pair<Index, Handle>> opposite;  // a vertex and its opposite tangent
-  for (const Index vertex : {tangent.index, wrapped(cage, tangent.index + 1)}) {
+  for (const Index vertex : {tangent.index, cage.next(tangent.index)}) {
     if (breaks || !is_smooth(deformation, vertex, mode)) continue;
     const auto [before, after] = tangents_of(deformation, vertex, mode);
     if (*before == tangent) opposite.push_back({vertex, *after});
@@ -62,7 +58,7 @@ Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, E
   moved.segments[tangent.index][tangent.control] = to;
   for (const auto& [vertex, other] : opposite) {
     const Complex z = moved.vertex(vertex), arm = to - z;
-    Complex& position = moved.segments[wrapped(moved, other.index)][other.control];
+    Complex& position = moved.segments[other.index][other.control];
     if (std::abs(arm) > 0) position = z - arm * (std::abs(position - z) / std::abs(arm));
   }
   return deformation;
@@ -70,11 +66,10 @@ Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, E
 
 Deformation smoothed(Deformation deformation, Index vertex, EditMode mode) {
   Cage& cage = cage_of(deformation, mode);
-  const Index before = wrapped(cage, vertex - 1);
+  const Index before = cage.before(vertex);
   raise_to(cage, before, 3);
   raise_to(cage, vertex, 3);
-  const Complex z = cage.vertex(vertex), last = cage.vertex(vertex - 1),
-                next = cage.vertex(vertex + 1);
+  const Complex z = cage.vertex(vertex), last = cage.vertex(before), next = cage.end_vertex(vertex);
   if (std::abs(next - last) == 0) return deformation;
   const Complex along = (next - last) / std::abs(next - last);
   cage.segments[before].back() = z - along * (std::abs(z - last) / 3);
@@ -84,13 +79,12 @@ Deformation smoothed(Deformation deformation, Index vertex, EditMode mode) {
 
 Deformation cornered(Deformation deformation, Index vertex, EditMode mode) {
   Cage& cage = cage_of(deformation, mode);
-  const Index before = wrapped(cage, vertex - 1);
+  const Index before = cage.before(vertex);
   const Complex z = cage.vertex(vertex);
   for (const Index e : {before, vertex})  // the two ends of a quadratic share one tangent handle
     if (cage.degree(e) == 2) raise_to(cage, e, 3);
-  if (cage.degree(before) > 2)
-    cage.segments[before].back() = z + (cage.vertex(vertex - 1) - z) / 3.0;
-  if (cage.degree(vertex) > 2) cage.segments[vertex][1] = z + (cage.vertex(vertex + 1) - z) / 3.0;
+  if (cage.degree(before) > 2) cage.segments[before].back() = z + (cage.vertex(before) - z) / 3.0;
+  if (cage.degree(vertex) > 2) cage.segments[vertex][1] = z + (cage.end_vertex(vertex) - z) / 3.0;
   return deformation;
 }
 

@@ -9,6 +9,7 @@
 #include "core/mesh/mesher.h"
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/displacement.h"
+#include "edit/edits/hole_edits.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -90,7 +91,7 @@ std::vector<Handle> handles_of(const Deformation& deformation, EditMode mode) {
 
 std::vector<Handle> adjacent_tangents(const Cage& cage, Handle handle) {
   if (handle.kind != Handle::Kind::cage || handle.control != 0) return {};
-  const Index before = (handle.index + cage.size() - 1) % cage.size();
+  const Index before = cage.before(handle.index);
   std::vector<Handle> tangents;
   if (cage.degree(handle.index) > 1) tangents.push_back({Handle::Kind::cage, handle.index, 1});
   if (cage.degree(before) > 1)
@@ -133,15 +134,29 @@ Deformation inserted(Deformation deformation, Index segment, double t) {
 }
 
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit) {
-  // Handles are deleted in decreasing order, which keeps the remaining indices valid.
-  Index vertices = 0;
+  const std::vector<Index> holes = deformation.rest.holes;
+  const Loops loops(deformation.rest.size(), holes);
+  std::vector<Index> left;  // vertices that remain in each loop
+  for (Index l = 0; l < loops.count(); ++l) left.push_back(loops.length(l));
   for (const Handle& handle : selection)
-    vertices += handle.kind == Handle::Kind::cage && handle.control == 0;
-  if (deformation.rest.size() - vertices < 3 && vertices > 0)
+    if (handle.kind == Handle::Kind::cage && handle.control == 0)
+      --left[static_cast<size_t>(loops.loop_of(handle.index))];
+  if (deformation.has_cage() && left[0] < 3 && left[0] < loops.length(0))
     throw Error(ErrorKind::bad_input,
                 "a cage needs at least three points; select fewer points to delete");
+  // Handles are deleted in decreasing order, which keeps the remaining indices valid.
+  std::set<Index> erased_holes;
   const std::vector<Handle> downwards(selection.rbegin(), selection.rend());
   for (const Handle& handle : downwards) {
+    if (handle.kind == Handle::Kind::cage) {
+      // A hole with fewer than three points is deleted as a whole.
+      const Index loop = loops.loop_of(handle.index);
+      if (left[static_cast<size_t>(loop)] < 3) {
+        if (erased_holes.insert(loop).second)
+          deformation = without_hole(std::move(deformation), loop);
+        continue;
+      }
+    }
     if (handle.kind == Handle::Kind::pin) {
       for_fitting_keys(deformation,
                        [&](Pose& pose) { pose.pins.erase(pose.pins.begin() + handle.index); });
@@ -153,12 +168,9 @@ Deformation erased(Deformation deformation, const Selection& selection, Refit re
       deformation.strokes.erase(deformation.strokes.begin() + handle.index);
     } else if (handle.control == 0) {
       const double joint = joint_parameter(deformation.rest, handle.index);
-      const auto corner = std::ranges::find(deformation.corners, handle.index, &Corner::vertex);
       for_fitting_keys(deformation, [&](Pose& pose) {
         erase_vertex(pose.cage, handle.index, joint, refit);
-        if (corner == deformation.corners.end() || pose.corners.empty()) return;
-        pose.corners.erase(pose.corners.begin() + (corner - deformation.corners.begin()));
-        if (pose.corners.size() < 3) pose.corners.clear();
+        follow_erasure(pose.corners, deformation.corners, handle.index);
       });
       erase_vertex(deformation.rest, handle.index, joint, refit);
       erase_vertex(deformation.pose, handle.index, joint, refit);

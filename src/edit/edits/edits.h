@@ -60,8 +60,9 @@ Complex center_of(const Deformation& deformation, const Selection& selection, Ed
 /// whose poses fit the deformation (see fits()). The curves keep their shapes.
 Deformation inserted(Deformation deformation, Index segment, double t);
 
-/// Deletes handles: vertices, pins and strokes. Throws Error if fewer than three cage vertices
-/// would remain.
+/// Deletes handles: vertices, pins and strokes. A hole of which fewer than three vertices would
+/// remain is deleted as a whole. Throws Error if fewer than three vertices of the outer loop would
+/// remain.
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit = Refit::curve);
 
 /// Whether the deformation's method, or the method that it follows, is the usual method for this

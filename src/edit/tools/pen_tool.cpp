@@ -1,6 +1,9 @@
-// Key P. Draws a cage point by point, inserts points in the edges of a finished cage, and moves its
-// points.
+// Key P. Draws a cage or a hole in it point by point, inserts points in the edges of a finished
+// cage, and moves its points.
+#include "core/cauchy/cauchy.h"
 #include "edit/actions/actions.h"
+#include "edit/edits/hole_edits.h"
+#include "edit/picking.h"
 #include "edit/tools/handle_tool.h"
 #include "edit/tools/pen_path.h"
 
@@ -28,7 +31,8 @@ class PenTool final : public HandleTool {
     const PenPath::Answer answer = path_.key(key);
     if (answer == PenPath::Answer::close) close(workspace);
     if (answer == PenPath::Answer::too_few)
-      workspace.messages.say("A cage needs at least three points.");
+      workspace.messages.say(draws_hole_ ? "A hole needs at least three points."
+                                         : "A cage needs at least three points.");
     return answer != PenPath::Answer::ignored;
   }
 
@@ -42,19 +46,21 @@ class PenTool final : public HandleTool {
   ToolOverlay overlay() const override {
     ToolOverlay overlay = HandleTool::overlay();
     path_.show(overlay);
+    overlay.in_cage = draws_hole_;
     overlay.insertion = insertion_;
     return overlay;
   }
 
   std::string hint(const Workspace& workspace) const override {
-    if (path_.active() && path_.closes()) return "Click to close the cage";
+    if (path_.active() && path_.closes())
+      return draws_hole_ ? "Click to close the hole" : "Click to close the cage";
     if (path_.active())
       return "Click for a corner, drag for a smooth point; click the first point, press Enter or "
              "double-click to close; Backspace removes the last point; Esc cancels";
     if (!workspace.shown.deformation().has_cage()) return "Click around the picture to draw a cage";
     if (insertion_) return "Click to insert a point; rest shape and pose do not change";
-    return "Click an edge to insert a point; click elsewhere to draw another cage instead of this "
-           "one";
+    return "Click an edge to insert a point; click inside the cage to draw a hole; click outside "
+           "to draw another cage instead of this one";
   }
 
  private:
@@ -75,20 +81,37 @@ class PenTool final : public HandleTool {
       }
     }
     if (!input.pressed) return;
-    // A cage is drawn around the picture at rest.
-    if (deformation.has_cage() && deformation != at_rest(deformation)) {
-      if (workspace.mode == EditMode::pose)
-        workspace.messages.say(
-            "Drawing another cage on the picture at rest. It replaces this cage when you close it. "
-            "Undo with " +
-            workspace.actions.key_of("edit.undo") + ".");
-      workspace.mode = EditMode::rest;
-    }
+    if (deformation.has_cage() && workspace.at_rest() &&
+        is_in_hole(deformation.rest, input.position))
+      return workspace.messages.say(
+          "This is a hole already. Click the picture to draw another, or outside to draw a cage.");
     workspace.selection.clear();
+    draws_hole_ = deformation.has_cage() && is_on_picture(workspace, input.position);
+    // Cages and holes are drawn on the picture at rest.
+    const bool switches = deformation.has_cage() && deformation != at_rest(deformation) &&
+                          workspace.mode == EditMode::pose;
+    if (switches) workspace.mode = EditMode::rest;
+    if (switches && draws_hole_)  // the picture has moved away from the pointer
+      return workspace.messages.say("This is the picture at rest. Click around the hole.");
+    if (switches)
+      workspace.messages.say(
+          "Drawing another cage on the picture at rest. It replaces this cage when you close it. "
+          "Undo with " +
+          workspace.actions.key_of("edit.undo") + ".");
     path_.set_point(input.position);
   }
 
+  static bool is_on_picture(const Workspace& workspace, Complex z) {
+    return workspace.at_rest() ? contains(workspace.shown.deformation().rest, z)
+                               : rest_at(workspace, z).has_value();
+  }
+
+  static bool is_in_hole(const Cage& cage, Complex z) {
+    return !contains(cage, z) && encloses(outline_of(loop_of(cage, 0)), z);
+  }
+
   void close(Workspace& workspace) {
+    if (draws_hole_) return close_hole(workspace);
     // Keep a rejected path, because the user can still remove points from it.
     if (!workspace.commit("Draw cage", with_cage(workspace.shown.own(), path_.cage()),
                           EditBase::document))
@@ -98,7 +121,28 @@ class PenTool final : public HandleTool {
     workspace.tools.active = ToolId::select;
   }
 
+  void close_hole(Workspace& workspace) {
+    const Cage hole = path_.cage();
+    const VectorXc controls = controls_of(hole);
+    const Points rest(controls.begin(), controls.end());
+    Points posed;
+    for (const Complex& z : rest)
+      if (workspace.map().has_map()) posed.push_back(posed_at(workspace.map(), z));
+    if (!workspace.require_keyframe_maps()) return;
+    Deformation drawn =
+        with_hole(workspace.shown.deformation(), hole, posed, workspace.keyframe_images(rest));
+    if (const auto fault = rest_fault(drawn.rest))
+      return workspace.messages.complain(
+          "The hole must lie inside the cage, without crossing or touching its edges, other holes "
+          "or itself. Backspace removes its last point.",
+          fault->where());
+    if (!workspace.commit("Draw hole", std::move(drawn))) return;
+    path_.cancel();
+    workspace.mode = EditMode::pose;
+  }
+
   PenPath path_;
+  bool draws_hole_ = false;
   std::optional<Complex> insertion_;
 };
 

@@ -62,6 +62,7 @@ class PinTool final : public HandleTool {
     workspace.selection = {
         {Handle::Kind::pin, static_cast<Index>(workspace.shown.deformation().pins.size()) - 1, 0}};
     drag_.start_amending(input, workspace.selection, workspace.shown.deformation());
+    ring_.hover(input, workspace);  // shows the ring of this pin
   }
 
   /// Makes the cage from the picture and sets a pin in it, in one step.
@@ -69,8 +70,10 @@ class PinTool final : public HandleTool {
     if (!workspace.document.image())
       return workspace.messages.say(needs_a_cage(workspace, "Pins need a cage"));
     make_picture_cage(workspace, [this, input, &workspace](Cage cage) {
-      if (winding_number(outline_of(cage), input.position) == 0) {
-        workspace.messages.say("Click the largest part of the picture to set a pin.");
+      if (!encloses(outline_of(cage), input.position)) {
+        workspace.messages.say(encloses(outline_of(loop_of(cage, 0)), input.position)
+                                   ? "This is an opening. Click the picture to set a pin."
+                                   : "Click the largest part of the picture to set a pin.");
         return false;
       }
       Deformation caged = with_cage(workspace.shown.own(), std::move(cage));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/geometry/orientation.h"
+
 namespace holomorph {
 namespace {
 
@@ -32,19 +34,22 @@ Points posed_segment(const Workspace& workspace, Index segment) {
     return line;
   }
   const Mesh& mesh = *workspace.map().prepared()->mesh;
-  const size_t n = mesh.boundary.size();
-  const auto boundary_index = [&](Index vertex) {
+  const Loops loops = mesh.boundary_loops();
+  const auto boundary_index = [&](Index vertex) -> Index {
     const int node = mesh.cage_vertices[static_cast<size_t>(vertex)];
-    return static_cast<size_t>(std::ranges::find(mesh.boundary, node) - mesh.boundary.begin());
+    return std::ranges::find(mesh.boundary, node) - mesh.boundary.begin();
   };
-  const size_t from = boundary_index(segment), to = boundary_index((segment + 1) % pose.size());
-  // The boundary is always counter-clockwise, but the cage has the orientation in which it was
-  // drawn.
-  const size_t step = signed_area(outline_of(workspace.shown.deformation().rest)) > 0 ? 1 : n - 1;
-  Points line{workspace.map().map().f[mesh.boundary[from]]};
-  for (size_t at = from; at != to;) {
-    at = (at + step) % n;
-    line.push_back(workspace.map().map().f[mesh.boundary[at]]);
+  const Index from = boundary_index(segment), to = boundary_index(pose.next(segment));
+  // The boundary always has the inside on its left, but the cage has the orientation in which it
+  // was drawn.
+  const bool forward = Orientation(workspace.shown.deformation().rest).is_oriented();
+  const auto image = [&](Index at) {
+    return workspace.map().map().f[mesh.boundary[static_cast<size_t>(at)]];
+  };
+  Points line{image(from)};
+  for (Index at = from; at != to;) {
+    at = forward ? loops.next(at) : loops.before(at);
+    line.push_back(image(at));
   }
   return line;
 }
@@ -64,8 +69,7 @@ CornerMark corner_mark(const Workspace& workspace, Index vertex) {
     return mark.center +
            (std::abs(direction) > 0 ? arm * direction / std::abs(direction) : Complex(arm));
   };
-  const Index n = workspace.shown.deformation().pose.size();
-  Points before = posed_segment(workspace, (vertex + n - 1) % n);
+  Points before = posed_segment(workspace, workspace.shown.deformation().pose.before(vertex));
   std::ranges::reverse(before);
   mark.before = end(std::move(before));
   mark.after = end(posed_segment(workspace, vertex));

@@ -28,8 +28,14 @@ Pose between(Pose a, const Pose& b, double fraction) {
   for (size_t e = 0; e < a.cage.segments.size(); ++e)
     blend(a.cage.segments[e], b.cage.segments[e], fraction);
   for (size_t k = 0; k < a.strokes.size(); ++k) blend(a.strokes[k], b.strokes[k], fraction);
-  for (size_t p = 0; p < a.pins.size(); ++p)
-    a.pins[p].position += fraction * (b.pins[p].position - a.pins[p].position);
+  for (size_t p = 0; p < a.pins.size(); ++p) {
+    PosePin& pin = a.pins[p];
+    const PosePin& to = b.pins[p];
+    pin.position += fraction * (to.position - pin.position);
+    pin.angle += fraction * (to.angle - pin.angle);
+    pin.scale *= std::pow(to.scale / pin.scale, fraction);
+    if (pin.turn && to.turn) *pin.turn += fraction * (*to.turn - *pin.turn);
+  }
   return a;
 }
 
@@ -101,7 +107,7 @@ Deformation Recording::follow(Workspace& workspace, Complex by, double now_ms) {
   const double time = std::min(kMaxTime, start_time_ + (now_ms - start_ms_) / 1000);
   Deformation deformation = dragged(base_at(workspace, time), by);
   workspace.shown.timeline.time = time;
-  const Pose pose = whole_pose_of(deformation);
+  const Pose pose = whole_pose_of(workspace.with_turns(deformation));
   if (time > samples_.back().time) samples_.emplace_back();
   samples_.back() = {time, by, pose, positions_in(pose)};
   return deformation;

@@ -17,6 +17,7 @@ struct ToolOverlay {
   Points line;                      ///< the line being drawn, as a polyline in the plane
   Points line_points;               ///< the points that the user set
   std::optional<Complex> line_end;  ///< the position of the line's next point
+  bool in_cage = false;             ///< the line is drawn in the cage, which stays visible
   bool closes = false;              ///< the next click closes the line
   std::optional<Box> marquee;       ///< in window px
   std::optional<Handle> hover;
@@ -64,7 +65,7 @@ class Tool {
   virtual std::string hint(const Workspace& workspace) const = 0;
 };
 
-/// The message "Switched to Elastic pins.", with the label of the usual method for a use.
+/// The message "Switched to Elastic.", with the label of the usual method for a use.
 std::string switched_to(MethodUse use);
 
 /// The message "Pins need a cage. Draw one with P, or use Make from picture.", where `what` is the

@@ -10,20 +10,43 @@
 namespace holomorph {
 namespace {
 
+void check_sizes(const Reader& reader, const Cage& rest, const Cage& pose) {
+  if (pose.size() != rest.size())
+    reader["pose"].fail("there are " + std::to_string(pose.size()) + " posed segments and " +
+                        std::to_string(rest.size()) + " at rest; they must agree");
+}
+
+void read_holes(const Reader& list, Deformation& deformation) {
+  if (list.array().size() > kMaxHoles)
+    list.fail("more than " + std::to_string(kMaxHoles) + " holes");
+  if (list.size() > 0 && !deformation.has_cage()) list.fail("there is no cage for these holes");
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Reader hole = list[i].object();
+    const Cage rest = read_loop(hole["rest"]),
+               pose = hole.has("pose") ? read_loop(hole["pose"]) : rest;
+    check_sizes(hole, rest, pose);
+    if (rest.size() < 3) hole["rest"].fail("a hole needs at least three segments");
+    add_hole(deformation.rest, rest.segments);
+    add_hole(deformation.pose, pose.segments);
+    deformation.hole_extras.push_back(hole.others({"rest", "pose"}));
+  }
+  if (std::ranges::all_of(deformation.hole_extras, &Extra::empty)) deformation.hole_extras.clear();
+  if (deformation.rest.segments.size() > kMaxSegments)
+    list.fail("more than " + std::to_string(kMaxSegments) + " segments in all loops");
+}
+
 void read_cage(const Reader& reader, Deformation& deformation) {
   reader.object();
   deformation.rest = read_loop(reader["rest"]);
   deformation.pose = reader.has("pose") ? read_loop(reader["pose"]) : deformation.rest;
-  deformation.cage_extra = reader.others({"rest", "pose"});
-  if (deformation.pose.size() != deformation.rest.size())
-    reader["pose"].fail("there are " + std::to_string(deformation.pose.size()) +
-                        " posed segments and " + std::to_string(deformation.rest.size()) +
-                        " at rest; they must agree");
+  check_sizes(reader, deformation.rest, deformation.pose);
+  if (reader.has("holes")) read_holes(reader["holes"], deformation);
+  deformation.cage_extra = reader.others({"rest", "pose", "holes"});
   if (!deformation.has_cage()) return;  // no cage drawn yet
   try {
     check_rest_cage(deformation.rest);
   } catch (const Error& error) {
-    reader["rest"].fail(error.what(), error.where());
+    (deformation.rest.holes.empty() ? reader["rest"] : reader).fail(error.what(), error.where());
   }
 }
 
@@ -222,8 +245,16 @@ Deformation read_deformation(const Reader& reader) {
 
 void write_deformation(const Deformation& deformation, Json& document) {
   Json cage;
-  cage["rest"] = loop_json(deformation.rest);
-  cage["pose"] = loop_json(deformation.pose);
+  cage["rest"] = loop_json(deformation.rest, 0);
+  cage["pose"] = loop_json(deformation.pose, 0);
+  for (Index l = 1; l < deformation.rest.loops().count(); ++l) {
+    Json hole;
+    hole["rest"] = loop_json(deformation.rest, l);
+    hole["pose"] = loop_json(deformation.pose, l);
+    if (deformation.hole_extras.size() == deformation.rest.holes.size())
+      add_extra(hole, deformation.hole_extras[static_cast<size_t>(l - 1)]);
+    cage["holes"].push_back(std::move(hole));
+  }
   add_extra(cage, deformation.cage_extra);
   document["cage"] = std::move(cage);
   for (const Pin& pin : deformation.pins) document["pins"].push_back(pin_json(pin));

@@ -34,9 +34,10 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       outline = flattened_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
     } else {
       const Image image = decode_image(bytes, name);
-      outline = fitted(
-          flattened(auto_cage(image, {.vertices = kVertices, .margin = 0, .curved = true})).points,
-          onto);
+      constexpr double kNoHoles = 100;
+      const Cage cage = auto_cage(
+          image, {.vertices = kVertices, .margin = 0, .hole_width = kNoHoles, .curved = true});
+      outline = fitted(flattened(cage).points, onto);
     }
     // The number of points identifies a surface's boundary, so it is not resampled.
     if (kind != ".obj" && static_cast<Index>(outline.size()) > kMostPoints)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/geometry/polyline.h"
 
@@ -51,7 +52,15 @@ auto read_list(const Reader& list, size_t most, Read read) {
 Pose read_pose(const Reader& reader, const Deformation& deformation) {
   reader.object();
   Pose pose = whole_pose_of(at_rest(deformation));
-  if (reader.has("cage")) pose.cage = read_loop(reader["cage"]);
+  if (reader.has("cage")) {
+    const Cage rest = std::exchange(pose.cage, read_loop(reader["cage"]));
+    const size_t holes = reader.has("holes") ? reader["holes"].array().size() : rest.holes.size();
+    if (holes > kMaxHoles)
+      reader["holes"].fail("more than " + std::to_string(kMaxHoles) + " holes");
+    for (size_t i = 0; i < holes; ++i)
+      add_hole(pose.cage, reader.has("holes") ? read_loop(reader["holes"][i]).segments
+                                              : loop_of(rest, static_cast<Index>(i) + 1).segments);
+  }
   if (reader.has("pins")) pose.pins = read_list(reader["pins"], kMaxPins, read_pose_pin);
   if (reader.has("strokes"))
     pose.strokes = read_list(reader["strokes"], kMaxStrokes,
@@ -67,7 +76,10 @@ Pose read_pose(const Reader& reader, const Deformation& deformation) {
 /// empty list. Without this list, the reader would place the handles at rest.
 Json pose_json(const Pose& pose, const Deformation& deformation) {
   Json json = Json::object();
-  json["cage"] = loop_json(pose.cage);
+  json["cage"] = loop_json(pose.cage, 0);
+  if (!deformation.rest.holes.empty()) json["holes"] = Json::array();
+  for (Index l = 1; l < pose.cage.loops().count(); ++l)
+    json["holes"].push_back(loop_json(pose.cage, l));
   if (!deformation.pins.empty()) json["pins"] = Json::array();
   if (!deformation.strokes.empty()) json["strokes"] = Json::array();
   if (!deformation.corners.empty()) json["corners"] = Json::array();
@@ -138,7 +150,7 @@ Keyframe read_keyframe(const Reader& reader, const Deformation& deformation) {
   key.pose = reader.has("pose") ? read_pose(reader["pose"], deformation)
                                 : whole_pose_of(at_rest(deformation));
   if (reader.has("pose"))
-    key.pose_extra = reader["pose"].others({"cage", "pins", "strokes", "corners"});
+    key.pose_extra = reader["pose"].others({"cage", "holes", "pins", "strokes", "corners"});
   if (reader.has("ease")) {
     const std::string ease = reader["ease"].text();
     const auto found = std::ranges::find(kEases, ease);
@@ -175,11 +187,9 @@ Json curve_json(const Points& curve) {
   return list;
 }
 
-Json loop_json(const Cage& cage) {
+Json loop_json(const Cage& cage, Index loop) {
   Json list = Json::array();
-  for (const Points& controls : cage.segments) {
-    list.push_back(curve_json(controls));
-  }
+  for (const Points& controls : loop_of(cage, loop).segments) list.push_back(curve_json(controls));
   return list;
 }
 

@@ -5,6 +5,7 @@
 
 namespace holomorph {
 
+/// One loop of a cage.
 Cage read_loop(const Reader& list);
 /// Reads points and passes them to `check`, which throws Error if they are invalid.
 Points read_curve(const Reader& reader, void (*check)(std::span<const Complex>));
@@ -17,7 +18,7 @@ AnimationSettings read_animation(const Reader& reader);
 
 Json point_json(Complex z);
 Json curve_json(const Points& curve);
-Json loop_json(const Cage& cage);
+Json loop_json(const Cage& cage, Index loop);
 Json corner_json(const Corner& corner);
 Json keyframe_json(const Keyframe& key, const Deformation& deformation);
 Json animation_json(const AnimationSettings& settings);

@@ -2,6 +2,8 @@
 // include its position.
 #include "scene/formats/scene_json.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/deformation_json.h"
@@ -11,8 +13,9 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVersion = 2, kPlainVersion = 1;  ///< with and without a list of layers
-constexpr int kDeepest = 200;                   ///< limit on nesting, including unknown keys
+/// With a list of layers, without one, and with holes in cages, which older programs would drop.
+constexpr int kLayeredVersion = 2, kPlainVersion = 1, kHoleVersion = 3;
+constexpr int kDeepest = 200;  ///< limit on nesting, including unknown keys
 
 ImageReference read_image(const Reader& reader) {
   reader.object();
@@ -145,10 +148,10 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
   if (!reader.has("format") || reader["format"].text() != "holomorph")
     reader.fail("not a Holomorph scene: \"format\": \"holomorph\" is missing");
   const int version = reader["version"].whole(1, 1 << 30);
-  if (version > kVersion)
+  if (version > kHoleVersion)
     reader["version"].fail("the scene has version " + std::to_string(version) +
                            ", written by a newer program; this one reads versions up to " +
-                           std::to_string(kVersion));
+                           std::to_string(kHoleVersion));
   Scene scene;
   read_shared(reader, scene);
   if (reader.has("layers"))
@@ -205,6 +208,13 @@ Json layers_json(const Scene& scene) {
   return layers;
 }
 
+/// Whether the cage of any layer has holes.
+bool has_holes(const Scene& scene) {
+  return std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
+    return !layer->deformation.rest.holes.empty();
+  });
+}
+
 Error not_utf8() {
   return {ErrorKind::bad_input,
           "a file name is not UTF-8 and cannot be written to a scene; rename the file"};
@@ -231,7 +241,7 @@ std::string json_of(const Scene& scene) {
   const bool layered = has_layers(scene);
   Json document;
   document["format"] = "holomorph";
-  document["version"] = layered ? kVersion : kPlainVersion;
+  document["version"] = has_holes(scene) ? kHoleVersion : layered ? kLayeredVersion : kPlainVersion;
   if (layered) {
     document["layers"] = layers_json(scene);
     document["edited"] = scene.edited;

@@ -14,18 +14,19 @@
 namespace holomorph {
 namespace {
 
-/// Reads path data command by command and collects the control points of each segment.
+/// Reads path data command by command and collects the control points of each segment, subpath by
+/// subpath.
 class PathReader {
  public:
   /// Lines of length zero are dropped unless `keeps_points` is true.
   PathReader(const std::string& data, std::string name, bool keeps_points)
       : data_(data), name_(std::move(name)), keeps_points_(keeps_points) {}
 
-  std::vector<Points> segments() {
+  std::vector<std::vector<Points>> loops() {
     while (skip_blanks()) read_command();
     if (!started_) fail("the path is empty");
-    close();
-    return std::move(segments_);
+    if (open_) finish_loop();
+    return std::move(loops_);
   }
 
  private:
@@ -71,19 +72,21 @@ class PathReader {
     const char letter = data_[at_++];
     const bool relative = std::islower(static_cast<unsigned char>(letter));
     const char command = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    if (command == 'Z' || command == 'M') last_ = command;
     if (command == 'Z') {
-      closed_ = true;
+      if (open_) finish_loop();
+      here_ = start_;
       return;
     }
-    if (closed_) fail("the path has several subpaths; a cage is one closed loop");
     if (command == 'M') {
-      if (started_) fail("the path has several subpaths; a cage is one closed loop");
+      if (open_) finish_loop();
       start_ = here_ = point(relative);
-      started_ = true;
+      started_ = open_ = true;
       while (number_follows()) line_to(point(relative));
       return;
     }
     if (!started_) fail("a path must begin with M");
+    if (!open_) fail("a new subpath must begin with M");
     do {
       read_segment(command, relative);
       last_ = command;
@@ -135,11 +138,15 @@ class PathReader {
     here_ = to;
   }
 
-  /// Closes the loop with a line, unless it is closed already.
-  void close() {
+  /// Closes the loop with a line, unless it is closed already. A subpath without segments is only a
+  /// point and is left out.
+  void finish_loop() {
     double size = 0;
     for (const Points& segment : segments_) size = std::max(size, std::abs(segment[0] - start_));
     if (std::abs(here_ - start_) > 1e-9 * size) segments_.push_back({here_});
+    if (!segments_.empty() || loops_.empty()) loops_.push_back(std::move(segments_));
+    segments_.clear();
+    open_ = false;
   }
 
   const std::string& data_;
@@ -147,8 +154,9 @@ class PathReader {
   size_t at_ = 0;
   Complex start_, here_, control_;
   char last_ = ' ';
-  bool keeps_points_, started_ = false, closed_ = false;
-  std::vector<Points> segments_;
+  bool keeps_points_, started_ = false, open_ = false;
+  std::vector<Points> segments_;            ///< of the current subpath
+  std::vector<std::vector<Points>> loops_;  ///< finished subpaths
 };
 
 /// Throws Error if groups are nested deeper than the budget allows.
@@ -241,17 +249,32 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
     const pugi::xml_node root = document.document_element();
     height = root.attribute("height").as_double(0);
   }
-  Cage cage;
-  cage.segments =
-      PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).segments();
-  for (Points& segment : cage.segments)
-    for (Complex& z : segment) z = {z.real(), height - z.imag()};
+  auto loops = PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).loops();
+  if (use == PathUse::outline && loops.size() > 1)
+    throw Error(ErrorKind::bad_input,
+                name + ": the path has several subpaths; an outline is one closed loop");
+  if (loops.size() > kMaxHoles + 1)
+    throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(loops.size()) +
+                                          " subpaths; at most 101 are allowed");
+  for (auto& loop : loops)
+    for (Points& segment : loop)
+      for (Complex& z : segment) z = {z.real(), height - z.imag()};
+  // The subpath with the largest area is the outer loop; the others are holes.
+  const auto outer = std::ranges::max_element(loops, {}, [](const std::vector<Points>& loop) {
+    return std::abs(signed_area(outline_of(Cage{loop})));
+  });
+  std::rotate(loops.begin(), outer, outer + 1);
+  Cage cage{loops[0]};
+  for (size_t l = 1; l < loops.size(); ++l) add_hole(cage, loops[l]);
   if (cage.size() > static_cast<Index>(kMaxSegments))
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; at most 5000 are allowed");
-  if (cage.size() < 3 && use != PathUse::outline)
-    throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
-                                          " segments; a cage needs at least three");
+  for (const auto& loop : loops)
+    if (loop.size() < 3 && use != PathUse::outline)
+      throw Error(ErrorKind::bad_input,
+                  name + ": " + (loops.size() > 1 ? "a subpath has " : "the path has ") +
+                      std::to_string(loop.size()) +
+                      " segments; a cage and its holes need at least three");
   if (use == PathUse::rest) separate_handles(cage);
   return cage;
 }
@@ -311,14 +334,19 @@ int cubic_count(const Points& c) {
 
 /// The path data of a cage with segment i split into counts[i] pieces.
 std::string path_data(const Cage& cage, const std::vector<int>& counts, double height) {
-  std::string data = "M " + point(cage.vertex(0), height);
-  for (Index i = 0; i < cage.size(); ++i)
-    for (Points piece : pieces_of(cage.controls(i), counts[static_cast<size_t>(i)])) {
-      if (piece.size() > 4) piece = cubic_of(piece);
-      data += piece.size() == 2 ? " L" : piece.size() == 3 ? " Q" : " C";
-      for (size_t m = 1; m < piece.size(); ++m) data += " " + point(piece[m], height);
-    }
-  return data + " Z";
+  std::string data;
+  const Loops loops = cage.loops();
+  for (Index l = 0; l < loops.count(); ++l) {
+    data += (l == 0 ? "M " : " M ") + point(cage.vertex(loops.first(l)), height);
+    for (Index i = loops.first(l); i < loops.end(l); ++i)
+      for (Points piece : pieces_of(cage.controls(i), counts[static_cast<size_t>(i)])) {
+        if (piece.size() > 4) piece = cubic_of(piece);
+        data += piece.size() == 2 ? " L" : piece.size() == 3 ? " Q" : " C";
+        for (size_t m = 1; m < piece.size(); ++m) data += " " + point(piece[m], height);
+      }
+    data += " Z";
+  }
+  return data;
 }
 
 }  // namespace

@@ -310,7 +310,7 @@ TEST_CASE(
     for (Index e = 0; e < 6; ++e)
       nearest = std::min(
           nearest,
-          nearest_on_segment(bent.cage.vertex(e), bent.cage.vertex(e + 1), map.f[v]).distance);
+          nearest_on_segment(bent.cage.vertex(e), bent.cage.end_vertex(e), map.f[v]).distance);
     REQUIRE(nearest <= 1e-3);
   }
 }

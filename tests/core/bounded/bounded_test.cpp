@@ -93,7 +93,7 @@ TEST_CASE("Bounded: a certificate is refused where a bound is violated between t
   const Certificate between = certifier.certify(map, {0.5 * (seen + peak), 0.01, 20});
   CHECK_FALSE(between.holds);
   CHECK(between.failed == Bound::k);
-  CHECK(std::abs(between.where - basis->polygon()[7]) < 0.2);
+  CHECK(std::abs(between.where - basis->polygon().points[7]) < 0.2);
   CHECK(certifier.certify(map, {peak + 0.01, 0.01, 20}).holds);
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("Bounded: a certificate of Psi' accounts for |f_z| lying below its cho
   LogMap map{VectorXc(basis->size()), VectorXc(basis->size()), LogMap::Second::psi};
   constexpr double kSteep = 30;
   for (Index j = 0; j < basis->size(); ++j) {
-    const Complex z = basis->polygon()[static_cast<size_t>(j)];
+    const Complex z = basis->polygon().points[static_cast<size_t>(j)];
     map.l[j] = kSteep * (z - 0.5);
     map.w[j] = 0;
   }

@@ -1,10 +1,12 @@
 // Tests the isometric energy and its minimization: derivatives against differences, minima against
 // Ipopt and against the figures of the specification, and the certificate of every answer.
+#include <Eigen/Eigenvalues>
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "core/isometric/barrier.h"
 #include "core/isometric/isometric_space.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
@@ -22,6 +24,13 @@ const Points kBar{{0, -.5}, {6, -.5}, {6, .5}, {0, .5}};
 struct Problem {
   Points domain, pins, targets;
   int vertices = 50;
+  std::vector<Points> holes = {};
+
+  Cage cage() const {
+    Cage cage = polygon_cage(domain);
+    for (const Points& hole : holes) add_hole(cage, polygon_cage(hole).segments);
+    return cage;
+  }
 };
 
 struct Prepared {
@@ -31,8 +40,8 @@ struct Prepared {
   IsometricTarget target;
 
   explicit Prepared(const Problem& problem, IsometricEnergy energy = {})
-      : mesh(domain_mesh(polygon_cage(problem.domain), {1500})),
-        basis(std::make_shared<const BoundaryBasis>(polygon_cage(problem.domain), problem.vertices,
+      : mesh(domain_mesh(problem.cage(), {1500})),
+        basis(std::make_shared<const BoundaryBasis>(problem.cage(), problem.vertices,
                                                     6 * problem.vertices)),
         space(basis, mesh, handles(problem), {}, {}, energy) {
     target.stations.resize(static_cast<Index>(problem.pins.size()));
@@ -58,6 +67,17 @@ Problem bent_by_270_degrees() {
         {radius * std::sin(s / radius), radius - radius * std::cos(s / radius)});
   }
   return problem;
+}
+
+Points regular_polygon(int corners, double radius) {
+  Points polygon;
+  for (int i = 0; i < corners; ++i) polygon.push_back(std::polar(radius, 2 * kPi * i / corners));
+  return polygon;
+}
+
+Points square_around(Complex center, double half) {
+  return {center + half * Complex(-1, -1), center + half * Complex(1, -1),
+          center + half * Complex(1, 1), center + half * Complex(-1, 1)};
 }
 
 }  // namespace
@@ -115,6 +135,62 @@ TEST_CASE("Isometric energy: rigid motions have the value 2, and inverse maps eq
   }
 }
 
+TEST_CASE("Isometric energy: the exponential form stays finite, smooth and convex far away") {
+  for (const double s : {1.0, 1.5, 4.0}) {
+    const IsometricEnergy energy{IsometricEnergy::Form::exponential, s};
+    CHECK(std::isfinite(energy.value(20, 0, 0)));
+    CHECK(std::isfinite(energy.value(0, 0, 1 - 1e-9)));
+    // Where s (e - 2) = 30, the form changes.
+    const double u = 0.5 * std::acosh((2 + 30 / s) / 2), h = 1e-6;
+    const auto before = energy.with_derivatives(u - h, 0, 0),
+               after = energy.with_derivatives(u + h, 0, 0);
+    CHECK(after.value == Approx(before.value).epsilon(1e-3));
+    CHECK(after.gradient[0] == Approx(before.gradient[0]).epsilon(1e-3));
+    CHECK(after.hessian(0, 0) == Approx(before.hessian(0, 0)).epsilon(1e-3));
+    CHECK(energy.with_derivatives(4, 0.3, 0.2).hessian.ldlt().isPositive());
+  }
+}
+
+TEST_CASE("Barrier: derivatives agree with differences, and it is infinite where a bound fails") {
+  for (const unsigned seed : seeds_of("barrier", {1, 2})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int i = 0; i < 200; ++i) {
+      const Bounds bounds{0.5 + 0.4 * uniform(random), std::exp(-1 + uniform(random)),
+                          std::exp(1.1 + uniform(random))};
+      const Barrier barrier(bounds);
+      const double u = 2 * uniform(random), a = uniform(random), b = uniform(random),
+                   r = std::hypot(a, b), value = barrier.value(u, a, b);
+      INFO("seed " << seed << ", number " << i);
+      const bool inside =
+          r < bounds.k && u + r < std::log(bounds.Sigma) && std::exp(u) * (1 - r) > bounds.sigma;
+      CHECK(std::isfinite(value) == inside);
+      if (!inside) continue;
+      CHECK(std::exp(u) * (1 + r) <= bounds.Sigma);
+      const auto at = [&](const Eigen::Vector3d& x) {
+        IsometricEnergy::Value sum{0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+        barrier.add_to(sum, 0.5, x[0], x[1], x[2]);
+        return sum;
+      };
+      const Eigen::Vector3d x(u, a, b);
+      const auto here = at(x);
+      CHECK(here.value == Approx(0.5 * value));
+      CHECK(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(here.hessian).eigenvalues()[0] >= 0);
+      const double room = std::min(
+          {bounds.k - r, std::log(bounds.Sigma) - u - r, 1 - bounds.sigma * std::exp(-u) - r});
+      const double step = 1e-4 * room;
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d d = step * Eigen::Vector3d::Unit(k);
+        const auto after = at(x + d), before = at(x - d);
+        CHECK(std::abs((after.value - before.value) / (2 * step) - here.gradient[k]) <=
+              1e-5 * (here.gradient.norm() + 1 / room));
+        CHECK(((after.gradient - before.gradient) / (2 * step) - here.hessian.col(k)).norm() <=
+              1e-5 * here.hessian.norm());
+      }
+    }
+  }
+}
+
 TEST_CASE("Isometric program: gradients agree with differences, and Hessians where pins are met") {
   for (const unsigned seed : seeds_of("isometric program", {5})) {
     const Prepared prepared(
@@ -164,7 +240,8 @@ TEST_CASE("Path tree: the nodes integrate functions of the basis almost to round
         stations.push_back(z);
     const PathTree tree(mesh, basis.polygon(), stations);
     // A function with a pole just outside the polygon, as close as a basis function's vertex.
-    const Complex pole = basis.polygon()[7] + 0.01 * (basis.polygon()[7] - Complex(0.5, 0.5));
+    const Complex pole =
+        basis.polygon().points[7] + 0.01 * (basis.polygon().points[7] - Complex(0.5, 0.5));
     const auto integral = [&](Complex z) { return std::log(z - pole); };
     std::vector<Complex> f(tree.pieces().size());
     for (size_t e = 0; e < f.size(); ++e) {
@@ -201,7 +278,19 @@ TEST_CASE("Isometric maps: the energies of the specification, certified") {
       {{{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},
         {{.5, .5}, {.5, 2.5}, {2.5, .5}},
         {{.5, .5}, {.5, 2.5}, {2, 1.7}}},
-       2.065}};
+       2.065},
+      {{regular_polygon(48, 2),
+        {{-1.5, 0}, {0, 1.5}, {1.5, 0}},
+        {{-1.5, 0}, {0, 1.5}, {2.5, .8}},
+        90,
+        {regular_polygon(32, 1)}},
+       2.119},
+      {{{{-3, -1.5}, {3, -1.5}, {3, 1.5}, {-3, 1.5}},
+        {{-2.6, 0}, {0, 0}, {2.6, 0}},
+        {{-2.6, 0}, {0, 0}, {2, 1.6}},
+        80,
+        {square_around(-1.5, .7), square_around(1.5, .7)}},
+       2.056}};
   for (const Row& row : rows) {
     const Prepared prepared(row.problem);
     const IsometricMap map = prepared.space.solved(prepared.target, kSettings);
@@ -210,6 +299,7 @@ TEST_CASE("Isometric maps: the energies of the specification, certified") {
     CHECK(std::abs(map.solution.energy - row.energy) <= 0.01 * row.energy);
     CHECK(map.certificate.holds);
     CHECK(map.solution.converged);
+    for (const Complex& gap : map.solution.gaps) CHECK(std::abs(gap) <= 1e-7);
     // Twice as many vertices hardly lower the energy.
     Problem finer = row.problem;
     finer.vertices *= 2;
@@ -247,6 +337,41 @@ TEST_CASE("Isometric maps: exact pins are met, and soft pins give way only where
   CHECK(exact.solution.offsets.cwiseAbs().maxCoeff() <= 1e-8);
   CHECK(exact.solution.energy > soft.solution.energy);
   CHECK(exact.certificate.holds);
+}
+
+TEST_CASE("Isometric maps: proved extremes are bounds, and are attained to within 1 %") {
+  for (const unsigned seed : seeds_of("proved extremes", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Problem problem{kBar, {{.5, 0}, {2, .3}, {4, -.3}, {5.5, 0}}, {}};
+    for (const Complex& z : problem.pins)
+      problem.targets.push_back(z + 0.8 * Complex(uniform(random), uniform(random)));
+    const Prepared prepared(problem);
+    const IsometricMap map = prepared.space.solved(prepared.target, kSettings);
+    REQUIRE(map.certificate.holds);
+    const Extremes proved = prepared.space.extremes(map.map);
+    Points dense;  // on the boundary, where all extremes lie
+    constexpr int kEach = 40;
+    for (const BoundaryPiece& piece : prepared.basis->pieces())
+      for (int k = 0; k < kEach; ++k)
+        dense.push_back(piece.start + static_cast<double>(k) / kEach * (piece.end - piece.start));
+    const MatrixXc c = prepared.basis->values(dense);
+    const VectorXc l = c * map.map.l, nu = c * map.map.w;
+    Extremes seen;
+    for (Index i = 0; i < l.size(); ++i) {
+      const double size = std::exp(l[i].real()), shear = std::abs(nu[i]);
+      seen.shear = std::max(seen.shear, shear);
+      seen.smallest = std::min(seen.smallest, size * (1 - shear));
+      seen.largest = std::max(seen.largest, size * (1 + shear));
+    }
+    constexpr double kClose = 1.011, kSmall = 1e-3;
+    CHECK(proved.shear >= seen.shear - 1e-12);
+    CHECK(proved.shear <= kClose * seen.shear + kSmall);
+    CHECK(proved.smallest <= seen.smallest + 1e-12);
+    CHECK(proved.smallest >= seen.smallest / kClose - kSmall);
+    CHECK(proved.largest >= seen.largest - 1e-12);
+    CHECK(proved.largest <= kClose * seen.largest + kSmall);
+  }
 }
 
 TEST_CASE("Isometric maps: drafts converge to the final answer that starts from their turns") {

@@ -103,3 +103,29 @@ TEST_CASE("Puppet: without pins and strokes the cage's points hold, however many
     CHECK(std::abs(image(rest, coarse, z) - image(other, fine, z)) <= 0.01 * kSize);
   }
 }
+
+TEST_CASE("Puppet: with pins, the number of cage points on straight edges hardly matters") {
+  const Points corners{{0, 0},     {600, 0},   {600, 100}, {350, 100},
+                       {350, 300}, {250, 300}, {250, 100}, {0, 100}};
+  const auto posed = [&](int parts) {
+    Points points;
+    for (size_t i = 0; i < corners.size(); ++i)
+      for (int k = 0; k < parts; ++k)
+        points.push_back(corners[i] +
+                         (corners[(i + 1) % corners.size()] - corners[i]) * (1.0 * k / parts));
+    Rest rest = bar(points);
+    Pose pose{rest.cage, {}};
+    for (const auto& [from, to] : {std::pair(Complex(50, 50), Complex(50, 50)),
+                                   std::pair(Complex(550, 50), Complex(520, 160)),
+                                   std::pair(Complex(300, 270), Complex(180, 250))}) {
+      rest.pins.push_back({from});
+      pose.pins.push_back({to});
+    }
+    const SampledMap map = solved(rest, pose);
+    Points images;
+    for (const Complex& z : corners) images.push_back(image(rest, map, z));
+    return images;
+  };
+  const Points few = posed(1), many = posed(24);
+  for (size_t i = 0; i < few.size(); ++i) CHECK(std::abs(few[i] - many[i]) <= 0.003 * kSize);
+}

@@ -37,7 +37,7 @@ struct Warp {
 };
 
 Points inner_points(const Cage& cage, int count, unsigned seed, double near_boundary) {
-  const Points outline = outline_of(cage, 64);
+  const Polygon outline = outline_of(cage, 64);
   const Box box = box_of(outline);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> x(box.left, box.right), y(box.bottom, box.top), unit(0, 1);
@@ -175,7 +175,7 @@ std::optional<int> wound(const Warp& warp, Complex w) {
       // Denser toward the vertices, where the derivative is unbounded.
       const double x = static_cast<double>(k) / kSteps, t = x * x * x * (10 - 15 * x + 6 * x * x);
       const Complex next =
-          warp.map->at(k == kSteps ? warp.rest.vertex(e + 1) : position_of(warp.rest, {e, t})).f;
+          warp.map->at(k == kSteps ? warp.rest.end_vertex(e) : position_of(warp.rest, {e, t})).f;
       if (std::abs(next - last) > 0.5 * std::abs(next - w)) return {};
       turn += std::arg((next - w) / (last - w));
       last = next;

@@ -6,6 +6,7 @@
 
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
+#include "core/geometry/orientation.h"
 #include "core/mesh/mesher.h"
 #include "support/shapes.h"
 
@@ -58,7 +59,7 @@ TEST_CASE("The domain mesh partitions ordinary polygons with about the target nu
 }
 
 TEST_CASE("A caller's own triangles give the same mesh as the mesher's") {
-  const Cage cage = counter_clockwise(shapes::curved_star(7, 3, 0.1, 5));
+  const Cage cage = oriented(shapes::curved_star(7, 3, 0.1, 5));
   const Mesh made = domain_mesh(cage, {600});
   std::vector<Triangle> turned = made.triangles;
   for (size_t i = 0; i < turned.size(); i += 2) std::swap(turned[i][0], turned[i][1]);
@@ -103,7 +104,7 @@ TEST_CASE("Triangles that do not fill the cage are rejected, and the message say
   refused(twice, {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}}, "flat");
   Cage round = cage;  // its chords cut off the bulges
   for (Index i = 0; i < round.size(); ++i)
-    round.segments[i].push_back(1.4 * (round.vertex(i) + round.vertex(i + 1)) / 2.0 -
+    round.segments[i].push_back(1.4 * (round.vertex(i) + round.end_vertex(i)) / 2.0 -
                                 0.4 * Complex(2, 1.5));
   CHECK_THROWS_WITH(mesh_of(round, corners, halves), Catch::Contains("do not fill"));
 }
@@ -148,7 +149,7 @@ TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles
       REQUIRE(mesh.cage_vertices.size() == static_cast<size_t>(cage.size()));
       for (Index e = 0; e < cage.size(); ++e)
         CHECK(mesh.vertices[mesh.cage_vertices[e]] == cage.vertex(e));
-      const Points outline = outline_of(cage, 2000);
+      const Polygon outline = outline_of(cage, 2000);
       std::set<int> boundary(mesh.boundary.begin(), mesh.boundary.end());
       for (size_t v = 0; v < mesh.vertices.size(); ++v) {
         if (v % 5 == 0) CHECK(contains(cage, mesh.vertices[v]));

@@ -82,7 +82,7 @@ TEST_CASE("Mean value coordinates: they follow the cage, and are negative beyond
     for (Index e = 0; e < 6; ++e)
       nearest = std::min(
           nearest,
-          nearest_on_segment(pose.cage.vertex(e), pose.cage.vertex(e + 1), map.f[v]).distance);
+          nearest_on_segment(pose.cage.vertex(e), pose.cage.end_vertex(e), map.f[v]).distance);
     REQUIRE(nearest <= 1e-9);
   }
   // The coordinate of a single vertex, read off as a displacement.

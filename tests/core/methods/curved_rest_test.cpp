@@ -42,7 +42,7 @@ VectorXc by_definition(const Points& controls, int degree, Complex z, int order)
 }
 
 Points inner_points(const Cage& cage, int count, unsigned seed) {
-  const Points outline = outline_of(cage, 64);
+  const Polygon outline = outline_of(cage, 64);
   const Box box = box_of(outline);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> x(box.left, box.right), y(box.bottom, box.top);

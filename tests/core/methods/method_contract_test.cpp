@@ -50,7 +50,8 @@ template <class Check>
 void for_every_method(Check check, Outlines outlines = Outlines::none) {
   for (const Method& method : methods())
     for (const Precision precision : {Precision::single, Precision::full})
-      for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved}) {
+      for (const Shape shape : {Shape::straight, Shape::raised, Shape::curved, Shape::holes}) {
+        if (shape == Shape::holes && !method.allows_holes) continue;
         // Other methods always compute in double precision, and raised edges give them the same
         // polygon.
         if (!is_linear(method) && shape != Shape::straight &&
@@ -60,7 +61,9 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
                        << static_cast<int>(shape));
         check(method, setup(method, precision, shape), tolerance(precision));
         // A fit to an outline sees the same polygon for raised edges as for straight ones.
-        if (outlines == Outlines::none || !method.uses_outline || shape == Shape::raised) continue;
+        if (outlines == Outlines::none || !method.uses_outline || shape == Shape::raised ||
+            shape == Shape::holes)
+          continue;
         INFO("with an outline");
         // The basis has hundreds of short segments, whose control points lie off the smooth curve.
         constexpr double kFineBasis = 1e-5;
@@ -300,6 +303,21 @@ TEST_CASE("Contract: a previous deformer does not change the map") {
         CHECK(a.fz == b.fz);
       },
       Outlines::too);
+}
+
+TEST_CASE(
+    "Contract: while there are pins that replace the cage, posed cage points have no effect") {
+  for (const Method& method : methods()) {
+    if (!method.uses_pins) continue;
+    INFO(method.id);
+    Setup s = setup(method, Precision::full);
+    s.rest.strokes.clear();
+    s.pose.strokes.clear();
+    const SampledMap bent = run(method, s.rest, s.pose);
+    s.pose.cage = s.rest.cage;
+    const SampledMap rests = run(method, s.rest, s.pose);
+    CHECK((bent.f == rests.f) == method.pins_replace_cage);
+  }
 }
 
 TEST_CASE("Pins: exact pins are met, and soft pins are met more closely as their weight grows") {

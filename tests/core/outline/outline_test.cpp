@@ -62,7 +62,7 @@ Energy energy_of(const OutlineMatch& match, const Cage& source, const Points& ou
   std::vector<BoundaryPoint> samples, middles;
   std::vector<double> sizes;
   for (Index e = 0; e < match.basis.size(); ++e) {
-    const double length = std::abs(match.basis.vertex(e + 1) - match.basis.vertex(e));
+    const double length = std::abs(match.basis.end_vertex(e) - match.basis.vertex(e));
     const int degree = match.basis.degree(e);
     for (int k = 0; k < 4 * degree; ++k) samples.push_back({e, k / (4.0 * degree)});
     for (int k = 0; k < degree; ++k) {

@@ -55,7 +55,8 @@ TEST_CASE("SVG files without a cage are rejected with the reason") {
   CHECK_THAT(complaint(path("")), Contains("empty"));
   CHECK_THAT(complaint(path("M0 0 L1 x")), Contains("character 9") && Contains("number"));
   CHECK_THAT(complaint(path("M0 0 A1 1 0 0 0 2 2")), Contains("arcs"));
-  CHECK_THAT(complaint(path("M0 0 L1 0 L1 1 z M5 5 L6 6 L7 5 z")), Contains("several subpaths"));
+  CHECK_THAT(complaint(path("M0 0 L1 0 L1 1 z L5 5")), Contains("must begin with M"));
+  CHECK_THAT(complaint(path("M0 0 L9 0 L9 9 z M5 5 L6 5 z")), Contains("a subpath has 2"));
   CHECK_THAT(complaint(path("L0 0 L1 1")), Contains("must begin with M"));
   CHECK_THAT(complaint(path("M0 0 L1 0")), Contains("at least three"));
   CHECK_THAT(complaint("<svg><g transform='scale(2)'><path d='M0 0 L1 0 L1 1'/></g></svg>"),
@@ -120,7 +121,7 @@ TEST_CASE(
              pose = cage_of_svg(svg, "p.svg", 0, PathUse::pose);
   REQUIRE(rest.size() == pose.size());
   CHECK(vertices_of(rest).front() == vertices_of(deformation.rest).front());
-  const Points fine = outline_of(pose, 256);
+  const Polygon fine = outline_of(pose, 256);
   constexpr double kChord = 1e-3;  // how far the chords of the fine outline are off
   const double allowed = 1e-4 * box_of(controls_of(deformation.pose)).diagonal() + kChord;
   for (const Complex& z : outline_of(deformation.pose, 500))

@@ -1,6 +1,6 @@
 // A straight piece that is shorter than twice the distance of its midpoint from the polygon lies
 // inside the polygon. Parts of a path with that property are replaced by their chords.
-#include "core/isometric/path_tree.h"
+#include "core/mesh/path_tree.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,7 +16,7 @@ namespace {
 /// The length of the longest piece, in distances of its midpoint from the polygon.
 constexpr double kReach = 1.5;
 
-bool is_short(const Points& polygon, Complex from, Complex to) {
+bool is_short(PolygonView polygon, Complex from, Complex to) {
   return std::abs(to - from) <= kReach * nearest_on_polygon(polygon, 0.5 * (from + to)).distance;
 }
 
@@ -79,8 +79,18 @@ class Graph {
 
 }  // namespace
 
-PathTree::PathTree(const Mesh& mesh, const Points& polygon, const Points& stations) {
-  if (stations.empty()) return;
+PathTree::PathTree(const Mesh& mesh, PolygonView polygon, const Points& stations,
+                   const std::vector<Points>& loops) {
+  if (!stations.empty()) add_paths(mesh, polygon, stations);
+  for (Points loop : loops) {
+    loop.push_back(loop.front());
+    add_pieces(loop, polygon, -1);
+    loops_.push_back(static_cast<Index>(pieces_.size()) - 1);
+  }
+  set_nodes();
+}
+
+void PathTree::add_paths(const Mesh& mesh, PolygonView polygon, const Points& stations) {
   const Graph graph(mesh, stations);
   const int first = static_cast<int>(mesh.vertices.size());
   const std::vector<int> parent = graph.parents(first);
@@ -121,10 +131,9 @@ PathTree::PathTree(const Mesh& mesh, const Points& polygon, const Points& statio
     }
     ends_.push_back(before);
   }
-  set_nodes();
 }
 
-void PathTree::add_pieces(const Points& line, const Points& polygon, Index parent) {
+void PathTree::add_pieces(const Points& line, PolygonView polygon, Index parent) {
   const auto add = [&](Complex from, Complex to) {
     pieces_.push_back({from, to, parent});
     parent = static_cast<Index>(pieces_.size()) - 1;

@@ -1,5 +1,5 @@
 // Pins outside the cage or at the position of an earlier pin are left out and named in the note.
-#include "core/methods/acting_pins.h"
+#include "core/maps/acting_pins.h"
 
 #include "core/cauchy/cauchy.h"
 
@@ -9,14 +9,16 @@ UsablePins usable_pins(const Rest& rest) {
   constexpr double kSpread = 1e-9;  // pins closer together than this, in units of L, count as one
   const double least = kSpread * perimeter(outline_of(rest.cage)) / (2 * kPi);
   UsablePins acting;
-  std::string outside, doubled;
+  std::string outside, in_holes, doubled;
   for (size_t i = 0; i < rest.pins.size(); ++i) {
     const Complex z = rest.pins[i].position;
     const auto name = [&](std::string& list) {
       list += (list.empty() ? "" : ", ") + std::to_string(i + 1);
     };
     if (!is_finite(z) || !contains(rest.cage, z)) {
-      name(outside);
+      const bool in_hole = is_finite(z) && !rest.cage.holes.empty() &&
+                           winding_number(outline_of(loop_of(rest.cage, 0)).points, z) != 0;
+      name(in_hole ? in_holes : outside);
       continue;
     }
     bool alone = true;
@@ -27,10 +29,13 @@ UsablePins usable_pins(const Rest& rest) {
     else
       name(doubled);
   }
-  if (!outside.empty()) acting.note = "Ignored: pin " + outside + " (outside the cage)";
-  if (!doubled.empty())
-    acting.note +=
-        (acting.note.empty() ? "" : ". ") + ("Ignored: pin " + doubled + " (on another pin)");
+  const auto add = [&](const std::string& list, const char* why) {
+    if (list.empty()) return;
+    acting.note += (acting.note.empty() ? "Ignored: pin " : ". Ignored: pin ") + list + why;
+  };
+  add(outside, " (outside the cage)");
+  add(in_holes, " (in a hole)");
+  add(doubled, " (on another pin)");
   return acting;
 }
 

@@ -1,0 +1,286 @@
+#include "core/bounded/log_inbetween.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "core/mesh/inbetween.h"
+
+namespace holomorph {
+namespace {
+
+/// The value of smooth motion from 0 to 1 that starts and ends at rest.
+double smoothstep(double u) {
+  return u * u * (3 - 2 * u);
+}
+
+}  // namespace
+
+LogInbetween::LogInbetween(std::shared_ptr<const BoundaryBasis> basis,
+                           std::shared_ptr<const Mesh> mesh, const Points& stations)
+    : basis_(std::move(basis)),
+      mesh_(std::move(mesh)),
+      certifier_(*basis_),
+      on_mesh_(*basis_, *mesh_),
+      loops_(*mesh_, basis_->polygon()),
+      integrals_(*basis_, *mesh_, stations, loops_.paths()),
+      size_(box_of(mesh_->vertices).diagonal()) {
+  for (const Complex& z : stations) stations_.push_back(locate_near(*mesh_, z));
+}
+
+bool LogInbetween::is_nu(const Sum& sum) {
+  return std::ranges::all_of(
+      sum.terms, [](const auto& term) { return term.second->second == LogMap::Second::nu; });
+}
+
+/// The sum as a single map, if all terms are in L_nu.
+LogMap LogInbetween::single(const Sum& sum) {
+  LogMap map = sum.change;
+  for (const auto& [weight, term] : sum.terms) {
+    map.l += weight * term->l;
+    map.w += weight * term->w;
+  }
+  return map;
+}
+
+LogInbetween::Sum LogInbetween::sum_of(const std::array<const Key*, 4>& keys,
+                                       const std::array<double, 4>& weights) const {
+  Sum sum{{}, {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())}};
+  for (size_t k = 0; k < keys.size(); ++k)
+    if (keys[k] && weights[k] != 0) sum.terms.push_back({weights[k], &keys[k]->map});
+  return sum;
+}
+
+Derivatives LogInbetween::weighted(const Sum& sum) const {
+  const MatrixXc& c = integrals_.values();
+  VectorXc l = c * sum.change.l, nu = c * sum.change.w;
+  for (const auto& [weight, term] : sum.terms) {
+    const VectorXc own = c * term->l;
+    VectorXc w = c * term->w;
+    if (term->second == LogMap::Second::psi) w.array() *= (-own.array()).exp();
+    l += weight * own;
+    nu += weight * w;
+  }
+  Derivatives d;
+  d.phi = l.array().exp() * integrals_.weights().array();
+  d.psi = nu.cwiseProduct(d.phi);
+  return d;
+}
+
+MapOnMesh::Values LogInbetween::on_mesh(const Sum& sum) const {
+  if (is_nu(sum)) return on_mesh_.values(single(sum));
+  VectorXc l = on_mesh_.function(sum.change.l), l1 = on_mesh_.slope(sum.change.l),
+           nu = on_mesh_.function(sum.change.w), nu1 = on_mesh_.slope(sum.change.w);
+  for (const auto& [weight, term] : sum.terms) {
+    const VectorXc own = on_mesh_.function(term->l), own1 = on_mesh_.slope(term->l);
+    VectorXc w = on_mesh_.function(term->w), w1 = on_mesh_.slope(term->w);
+    if (term->second == LogMap::Second::psi) {  // nu = Psi' e^-l
+      const VectorXc over = (-own.array()).exp();
+      w1 = (w1 - w.cwiseProduct(own1)).cwiseProduct(over).eval();
+      w = w.cwiseProduct(over).eval();
+    }
+    l += weight * own;
+    l1 += weight * own1;
+    nu += weight * w;
+    nu1 += weight * w1;
+  }
+  MapOnMesh::Values values;
+  values.first.phi = l.array().exp();
+  values.first.psi = nu.cwiseProduct(values.first.phi);
+  const VectorXc phi2 = l1.cwiseProduct(values.first.phi),
+                 psi2 = (nu1 + nu.cwiseProduct(l1)).cwiseProduct(values.first.phi);
+  values.f = on_mesh_.tree().antiderivative(values.first.phi, phi2) +
+             on_mesh_.tree().antiderivative(values.first.psi, psi2).conjugate();
+  return values;
+}
+
+/// Tries to prove the extremes of the given keys, with a tolerance of 1 %. If a term is in L_psi,
+/// its nu is not in the basis. By convexity, the terms alone stay within the extremes, and only the
+/// change has to be small.
+bool LogInbetween::certify(const Sum& sum, std::span<const Key* const> within) const {
+  constexpr double kTolerance = 0.01, kRounding = 1e-9;
+  constexpr int kDepth = 8;
+  Bounds bounds{0, std::numeric_limits<double>::infinity(),
+                std::numeric_limits<double>::infinity()};
+  for (const Key* key : within) {
+    bounds.k = std::max(bounds.k, key->extremes.shear);
+    bounds.sigma = std::min(bounds.sigma, key->extremes.smallest);
+  }
+  bounds.k = std::min(1 - kRounding, (1 + kTolerance) * bounds.k + kRounding);
+  bounds.sigma *= 1 - kTolerance;
+  if (is_nu(sum)) return certifier_.certify(single(sum), bounds, kDepth).holds;
+  if (sum.change.l.isZero(0) && sum.change.w.isZero(0)) return true;
+  const Extremes change = certifier_.extremes(sum.change);
+  return change.shear <= 0.5 * kTolerance * bounds.k &&
+         change.smallest >= 1 - 0.5 * kTolerance * (1 - bounds.k);
+}
+
+/// The root mean square of l and nu on the boundary.
+double LogInbetween::norm(const Sum& sum) const {
+  const LogMap map = single(sum);
+  const MatrixXc& c = certifier_.coordinates();
+  return std::sqrt(((c * map.l).squaredNorm() + (c * map.w).squaredNorm()) /
+                   static_cast<double>(c.rows()));
+}
+
+double LogInbetween::distance(const Key& a, const Key& b) const {
+  return norm({{{-1, &a.map}, {1, &b.map}},
+               {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())}});
+}
+
+/// The derivative at key `at`, as weights of the keys: that of the parabola through the key and its
+/// two neighbors. It is halved until the inner points of both Bezier curves at the key certify; 0
+/// if a neighbor is missing.
+std::array<double, 4> LogInbetween::velocity(const std::array<const Key*, 4>& keys,
+                                             size_t at) const {
+  const Key *before = keys[at - 1], *here = keys[at], *after = keys[at + 1];
+  if (!before || !after) return {};
+  for (const Key* key : {before, here, after})
+    if (key->map.second != LogMap::Second::nu) return {};
+  const double h0 = here->time - before->time, h1 = after->time - here->time;
+  std::array<double, 4> velocity{};
+  velocity[at - 1] = -h1 / (h0 * (h0 + h1));
+  velocity[at + 1] = h0 / (h1 * (h0 + h1));
+  velocity[at] = -velocity[at - 1] - velocity[at + 1];
+  // Where the picture rests before or after the key, it must not move. Elsewhere this does not
+  // matter (compare Fritsch, Carlson 1980).
+  const double most = 3 * std::min(distance(*before, *here) / h0, distance(*here, *after) / h1);
+  const double speed = norm(sum_of(keys, velocity));
+  if (speed > most)
+    for (double& weight : velocity) weight *= most / speed;
+  const auto certifies = [&](double step, const Key* other) {
+    std::array<double, 4> weights{};
+    for (size_t k = 0; k < 4; ++k) weights[k] = step * velocity[k] + (k == at ? 1 : 0);
+    return certify(sum_of(keys, weights), std::array{here, other});
+  };
+  constexpr int kHalvings = 4;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    if (certifies(-h0 / 3, before) && certifies(h1 / 3, after)) return velocity;
+    for (double& weight : velocity) weight *= 0.5;
+  }
+  return {};
+}
+
+LogInbetween::Interval LogInbetween::interval(const Key* before, const Key& from, const Key& to,
+                                              const Key* after, bool smooth,
+                                              const std::vector<char>& held) const {
+  check(static_cast<Index>(held.size()) == static_cast<Index>(stations_.size()),
+        "in-between: one mark for each station");
+  Interval interval;
+  interval.owner = this;
+  interval.smooth = smooth;
+  interval.keys = {before, &from, &to, after};
+  interval.controls[0][1] = interval.controls[1][1] = 1;
+  interval.controls[2][2] = interval.controls[3][2] = 1;
+  if (smooth) {
+    const double third = (to.time - from.time) / 3;
+    const auto start = velocity(interval.keys, 1), end = velocity(interval.keys, 2);
+    for (size_t k = 0; k < 4; ++k) {
+      interval.controls[1][k] += third * start[k];
+      interval.controls[2][k] -= third * end[k];
+    }
+  }
+  // A station that a key misses, or that the keys hold at different places, is not still.
+  constexpr double kSame = 1e-3;
+  std::vector<Index> still;
+  for (size_t i = 0; i < stations_.size(); ++i) {
+    const Complex a = stations_[i].in(*mesh_, as_span(from.f)),
+                  b = stations_[i].in(*mesh_, as_span(to.f));
+    if (!held[i] || std::abs(a - b) > kSame * size_) continue;
+    still.push_back(static_cast<Index>(i));
+    interval.placed.push_back(stations_[i]);
+  }
+  if (still.empty()) interval.placed = {least_moving_point(*mesh_, from.f, to.f)};
+  const Index pairs = std::max<Index>(0, static_cast<Index>(still.size()) - 1),
+              holes = static_cast<Index>(loops_.paths().size()), count = integrals_.count();
+  interval.constant = MatrixXd::Zero(pairs + holes, count);
+  for (Index i = 0; i < pairs; ++i) {  // integrals start at station 0
+    const Index one = still[static_cast<size_t>(i)], next = still[static_cast<size_t>(i) + 1];
+    if (one > 0) interval.constant(i, one - 1) = -1;
+    interval.constant(i, next - 1) = 1;
+  }
+  interval.constant.bottomRightCorner(holes, holes).setIdentity();
+  const auto measure = [&](const Key& key, VectorXc& value, VectorXc& off) {
+    const Sum sum{{{1, &key.map}},
+                  {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())}};
+    const Derivatives d = weighted(sum);
+    const VectorXc integrals = integrals_.of(d.phi, d.psi);
+    value = interval.constant * integrals;
+    off = key.f - without_jumps(on_mesh(sum).f, integrals.tail(holes));
+  };
+  measure(from, interval.at_from, interval.off_from);
+  measure(to, interval.at_to, interval.off_to);
+  return interval;
+}
+
+VectorXc LogInbetween::without_jumps(VectorXc f, const VectorXc& gaps) const {
+  if (gaps.size() > 0) f -= loops_.correction(on_mesh_.tree(), gaps);
+  return f;
+}
+
+/// The change that keeps the constant integrals, by Gauss-Newton steps.
+LogMap LogInbetween::holding(const Interval& interval, double share, Sum sum) const {
+  constexpr int kSteps = 3;
+  const bool conformal = interval.keys[1]->map.w.isZero(0) && interval.keys[2]->map.w.isZero(0);
+  const VectorXc target = (1 - share) * interval.at_from + share * interval.at_to;
+  for (int step = 0; step < kSteps && interval.constant.rows() > 0; ++step) {
+    const Derivatives d = weighted(sum);
+    const VectorXc off = target - interval.constant * integrals_.of(d.phi, d.psi);
+    const LogMap more =
+        integrals_.smallest({interval.constant, off, LogMap::Second::nu, conformal}, *basis_, d);
+    sum.change.l += more.l;
+    sum.change.w += more.w;
+  }
+  return sum.change;
+}
+
+LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
+  const double v = 1 - u, share = smooth ? smoothstep(u) : u;
+  const std::array<double, 4> bernstein =
+      smooth ? std::array<double, 4>{v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u}
+             : std::array<double, 4>{v, 0, 0, u};
+  std::array<double, 4> weights{};
+  for (size_t p = 0; p < 4; ++p)
+    for (size_t k = 0; k < 4; ++k) weights[k] += bernstein[p] * controls[p][k];
+  Sum sum = owner->sum_of(keys, weights);
+  const LogMap whole = owner->holding(*this, share, sum);
+  Blend blend;
+  // If the changed map does not certify, it moves toward the blend, which does.
+  constexpr double kLeast = 1e-3;
+  double part = 1;
+  for (; part > kLeast; part *= 0.5) {
+    sum.change.l = part * whole.l;
+    sum.change.w = part * whole.w;
+    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
+    if (blend.certified) break;
+  }
+  if (!blend.certified) {
+    sum.change.l.setZero();
+    sum.change.w.setZero();
+    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
+  }
+  const bool closed = owner->loops_.paths().empty() || part == 1;
+  blend.certified = blend.certified && closed;
+  MapOnMesh::Values values = owner->on_mesh(sum);
+  blend.first = std::move(values.first);
+  blend.f = std::move(values.f);
+  if (!owner->loops_.paths().empty()) {
+    const Derivatives d = owner->weighted(sum);
+    const Index holes = static_cast<Index>(owner->loops_.paths().size());
+    const VectorXc gaps = owner->integrals_.of(d.phi, d.psi).tail(holes);
+    blend.gap = gaps.cwiseAbs().maxCoeff();
+    blend.f = owner->without_jumps(std::move(blend.f), gaps);
+  }
+  blend.f += (1 - share) * off_from + share * off_to;
+  const Mesh& mesh = *owner->mesh_;
+  Complex off = 0;
+  for (const Location& at : placed)
+    off += (1 - share) * at.in(mesh, as_span(keys[1]->f)) +
+           share * at.in(mesh, as_span(keys[2]->f)) - at.in(mesh, as_span(blend.f));
+  blend.f.array() += off / static_cast<double>(placed.size());
+  if (measures && blend.certified && is_nu(sum))
+    blend.extremes = owner->certifier_.extremes(single(sum));
+  return blend;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,101 @@
+// Maps between two maps without folds, which do not fold either.
+//
+// With l and nu of both keys blended by the same convex weights, |nu| and the smallest stretch stay
+// within the bounds of the keys, because they are convex. Smooth motion is a Bezier curve whose
+// inner points are certified, so all of its points are. Then the smallest change keeps those
+// stations still that both keys hold, and closes holes.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/bounded/hole_closing.h"
+#include "core/bounded/map_on_mesh.h"
+
+namespace holomorph {
+
+/// Blends maps of one basis. Threads: const functions may run at the same time.
+class LogInbetween {
+ public:
+  /// `stations` are points in the domain that keys may hold.
+  LogInbetween(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,
+               const Points& stations);
+
+  /// A certified key: its map with a continuous argument, the proved extremes of its distortion,
+  /// and f at the mesh's vertices.
+  struct Key {
+    LogMap map;
+    Extremes extremes;
+    VectorXc f;
+    double time = 0;
+  };
+  /// The mean of Im l over the mesh's vertices: the average rotation of the picture.
+  double mean_argument(const LogMap& map) const { return on_mesh_.function(map.l).imag().mean(); }
+
+  /// The map between two keys.
+  struct Blend {
+    VectorXc f;
+    Derivatives first;  ///< at the mesh's vertices
+    /// Whether it is proved that |nu| and the smallest size stay within 1 % of the keys' extremes.
+    bool certified = false;
+    std::optional<Extremes> extremes;  ///< if both keys are in the space L_nu
+    /// By how much f jumped before the jumps were spread over the picture; 0 without holes.
+    double gap = 0;
+  };
+
+  /// The motion from one key to the next. The keys must outlive it.
+  class Interval {
+   public:
+    /// The map at the fraction u of the time, 0 < u < 1, with or without `extremes`. Cost: that of
+    /// MapOnMesh::values, up to three products with the nodes of the paths, and a proof.
+    Blend at(double u, bool measures) const;
+
+   private:
+    friend class LogInbetween;
+    const LogInbetween* owner = nullptr;
+    std::array<const Key*, 4> keys{};  ///< the one before, both ends, and the one after
+    /// Four points of a Bezier curve, as weights of the keys.
+    std::array<std::array<double, 4>, 4> controls{};
+    bool smooth = false;
+    /// Combinations of integrals that stay: around holes, and between stations that both ends hold.
+    MatrixXd constant;
+    VectorXc at_from, at_to;       ///< their values at the ends
+    std::vector<Location> placed;  ///< points that move straight: still stations, or one point
+    /// The ends minus what integration along the mesh gives for them. Blended, it is added to maps
+    /// in between, so that these are as accurate.
+    VectorXc off_from, off_to;
+  };
+  /// Linear motion, or smooth motion that passes through an end with the velocity given by the keys
+  /// on both sides, if there are any there. `held` says which stations both ends hold.
+  Interval interval(const Key* before, const Key& from, const Key& to, const Key* after,
+                    bool smooth, const std::vector<char>& held) const;
+
+ private:
+  /// The sum of weighted maps, and a change in L_nu.
+  struct Sum {
+    std::vector<std::pair<double, const LogMap*>> terms;
+    LogMap change;
+  };
+  static bool is_nu(const Sum& sum);
+  static LogMap single(const Sum& sum);
+  Sum sum_of(const std::array<const Key*, 4>& keys, const std::array<double, 4>& weights) const;
+  Derivatives weighted(const Sum& sum) const;
+  bool certify(const Sum& sum, std::span<const Key* const> within) const;
+  double norm(const Sum& sum) const;
+  double distance(const Key& a, const Key& b) const;
+  std::array<double, 4> velocity(const std::array<const Key*, 4>& keys, size_t at) const;
+  LogMap holding(const Interval& interval, double share, Sum sum) const;
+  MapOnMesh::Values on_mesh(const Sum& sum) const;
+  VectorXc without_jumps(VectorXc f, const VectorXc& gaps) const;
+
+  std::shared_ptr<const BoundaryBasis> basis_;
+  std::shared_ptr<const Mesh> mesh_;
+  Certifier certifier_;
+  MapOnMesh on_mesh_;
+  HoleLoops loops_;
+  TreeIntegrals integrals_;
+  std::vector<Location> stations_;
+  double size_;
+};
+
+}  // namespace holomorph

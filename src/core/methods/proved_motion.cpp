@@ -1,0 +1,87 @@
+#include "core/methods/proved_motion.h"
+
+#include "core/maps/distortion.h"
+#include "core/methods/notes.h"
+
+namespace holomorph {
+namespace {
+
+using Key = LogInbetween::Key;
+
+class LogInterval final : public MotionInterval {
+ public:
+  LogInterval(std::shared_ptr<const LogInbetween> between, std::shared_ptr<const Mesh> mesh,
+              std::array<std::unique_ptr<const Key>, 4> keys, bool smooth,
+              const std::vector<char>& held)
+      : between_(std::move(between)),
+        mesh_(std::move(mesh)),
+        keys_(std::move(keys)),
+        interval_(between_->interval(keys_[0].get(), *keys_[1], *keys_[2], keys_[3].get(), smooth,
+                                     held)) {}
+
+  SampledMap at(double u, bool measures) const override {
+    LogInbetween::Blend blend = interval_.at(u, measures);
+    SampledMap map;
+    map.f = std::move(blend.f);
+    map.fz = std::move(blend.first.phi);
+    map.fzbar = blend.first.psi.conjugate();
+    map.extremes = blend.extremes;
+    const int flipped = flipped_triangles(*mesh_, map.f);
+    map.status = blend.certified && flipped == 0 ? SampledMap::Status::certified
+                                                 : SampledMap::Status::infeasible;
+    map.note = !blend.certified ? "Between keyframes: not proved"
+               : flipped > 0    ? coarse_mesh_text(flipped)
+                                : "Between keyframes: no folds";
+    return map;
+  }
+
+ private:
+  std::shared_ptr<const LogInbetween> between_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::array<std::unique_ptr<const Key>, 4> keys_;
+  LogInbetween::Interval interval_;
+};
+
+class LogMotion final : public ProvedMotion {
+ public:
+  explicit LogMotion(MotionSetting setting)
+      : setting_(std::move(setting)),
+        between_(std::make_shared<const LogInbetween>(setting_.basis, setting_.mesh,
+                                                      setting_.positions)) {}
+
+  std::unique_ptr<MotionInterval> interval(const MotionKey* before, const MotionKey& from,
+                                           const MotionKey& to, const MotionKey* after,
+                                           bool smooth) const override {
+    std::array<std::unique_ptr<const Key>, 4> keys{key_of(before), key_of(&from), key_of(&to),
+                                                   key_of(after)};
+    if (!keys[1] || !keys[2]) return nullptr;
+    std::vector<char> held;
+    for (const size_t i : setting_.pins)
+      held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
+    return std::make_unique<LogInterval>(between_, setting_.mesh, std::move(keys), smooth, held);
+  }
+
+ private:
+  /// Null if the key is not certified.
+  std::unique_ptr<const Key> key_of(const MotionKey* key) const {
+    if (!key || !key->extremes || !key->solution) return nullptr;
+    const LogMap* map = setting_.map_of(*key->solution);
+    if (!map) return nullptr;
+    auto own = std::make_unique<Key>(Key{*map, *key->extremes, *key->f, key->time});
+    const double turns =
+        std::round((key->rotation - between_->mean_argument(own->map)) / (2 * kPi));
+    own->map.l.array() += 2 * kPi * turns * kI;
+    return own;
+  }
+
+  MotionSetting setting_;
+  std::shared_ptr<const LogInbetween> between_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ProvedMotion> proved_motion(MotionSetting setting) {
+  return std::make_shared<const LogMotion>(std::move(setting));
+}
+
+}  // namespace holomorph
