@@ -105,7 +105,7 @@ class PictureMaker::LayerMaker {
       return include_between(from, middle, at_from, at_middle, box, keep_going, halves - 1) &&
              include_between(middle, to, at_middle, at_to, box, keep_going, halves - 1);
     Box here;
-    for (const VectorXc* f : {&at_middle, &at_to})
+    for (const VectorXc* f : {&at_from, &at_middle, &at_to})
       for (const Complex& z : *f) here.include(z);
     const Complex margin(bend / 4, bend / 4);
     box.include(Complex(here.left, here.bottom) - (bend > 1e-3 ? margin : 0));
