@@ -114,6 +114,7 @@ class IsometricSolver {
         out.converged = true;  // rounding prevents any further decrease
         break;
       }
+      curved_ = curved_ || (near_ && step_ < 1);
     }
     report(s, out);
     return out;
@@ -431,13 +432,14 @@ class IsometricSolver {
     }
   }
 
-  /// Factors the matrix, with the second derivatives of pins that miss by far. Near the minimum,
-  /// they are exact if that is definite. Otherwise, their convex part is used, less as much of the
-  /// concave part as possible: the more of it, the longer the steps are.
+  /// Factors the matrix, with the second derivatives of pins that miss by far or where they shorten
+  /// the steps. Near the minimum, they are exact if that is definite. Otherwise, their convex part
+  /// is used, less as much of the concave part as possible: the more of it, the longer the steps
+  /// are.
   bool factor(const State& s) {
     if (!hessian_.allFinite()) return false;
-    if (s.offsets.size() == 0 || !(s.offsets.cwiseAbs().maxCoeff() > settings_.far))
-      return factor();
+    const bool is_far = s.offsets.size() > 0 && s.offsets.cwiseAbs().maxCoeff() > settings_.far;
+    if (std::isinf(settings_.far) || !(is_far || curved_)) return factor();
     const std::vector<Bend> bent = bends(s);
     if (!near_) {
       hessian_ += convex_part(bent);
@@ -507,8 +509,9 @@ class IsometricSolver {
   double all_ = 0;  ///< sum of the stations' weights
   VectorXd gradient_;
   MatrixXd hessian_, rows_;
-  bool near_ = false;  ///< the minimum
-  double step_ = 1;    ///< the part of the last Newton step that was taken
+  bool near_ = false;    ///< the minimum
+  bool curved_ = false;  ///< steps near the minimum were too long: the pins' curvature matters
+  double step_ = 1;      ///< the part of the last Newton step that was taken
   Workspace<double> double_;
   Workspace<float> single_;
   Cholesky cholesky_;

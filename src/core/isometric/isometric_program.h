@@ -68,8 +68,9 @@ struct IsometricSettings {
   int iterations = 200;
   /// The iteration stops when the Newton decrement is below this fraction of the total.
   double tolerance = 1e-13;
-  /// If a pin misses by more than this, the second derivatives of the pins are added, as far as the
-  /// matrix stays definite. Use it for final answers; impossible poses then need fewer iterations.
+  /// If a pin misses by more than this, or if steps near the minimum are too long, the second
+  /// derivatives of the pins are added, as far as the matrix stays definite. Use it for final
+  /// answers; strained poses then need fewer iterations. Infinite: they are never added.
   double far = std::numeric_limits<double>::infinity();
   bool single = false;  ///< compute the Hessian in single precision
   std::stop_token stop = {};

@@ -17,7 +17,7 @@ struct Dragged {
   Pose pose;        ///< with the turns of the last draft, as a file stores them
   double slowest_ms = 0;
   bool proved = true;
-  bool gentle = true;  ///< no pin went through or around another one
+  bool gentle = true;  ///< no pin went through, around or close to another one
 };
 
 /// Improves the draft while the pointer rests, as the worker does.
@@ -37,6 +37,7 @@ Dragged dragged(const Puppet& puppet, Deformer& deformer, std::mt19937& random) 
   for (const RestPin& pin : puppet.rest.pins) result.pose.pins.push_back({pin.position});
   result.last = deformer.deform(result.pose, {});
   const auto uniform = [&] { return std::uniform_real_distribution<>(-1, 1)(random); };
+  constexpr double kApart = 0.1;
   const int drags = 1 + static_cast<int>(random() % 3);
   for (int drag = 0; drag < drags; ++drag) {
     std::vector<PosePin>& pins = result.pose.pins;
@@ -46,13 +47,16 @@ Dragged dragged(const Puppet& puppet, Deformer& deformer, std::mt19937& random) 
     const double right = uniform(), up = uniform();
     const Complex far = from + 0.3 * puppet.size * Complex(right, up);
     const int steps = kind == 2 ? 120 : 25;
-    result.gentle = result.gentle && kind != 1 && kind != 2;
     for (int k = 1; k <= steps; ++k) {
       const double t = static_cast<double>(k) / steps;
       Complex at = from + t * (far - from);
       if (kind == 1) at = from + 2 * t * (center - from);                           // through it
       if (kind == 2) at = center + std::polar(1.0, 4 * kPi * t) * (from - center);  // 720 degrees
       pins[moved].position = at;
+      for (size_t i = 0; i < pins.size(); ++i)
+        if (i != moved && std::abs(pins[i].position - at) < kApart * puppet.size)
+          result.gentle = false;
+      result.gentle = result.gentle && kind != 2;
       const double start = now_ms();
       result.last = deformer.deform(result.pose, {.derivatives = false, .draft = true},
                                     result.last.solution.get());
@@ -73,13 +77,14 @@ TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it
   const char* given = std::getenv("HOLOMORPH_DRAGS");
   const int count = given ? std::atoi(given) : 2;
   const Method& method = method_named("puppet");
-  int missed = 0, moved_far = 0, chaotic = 0;
+  int drags = 0, missed = 0, moved_far = 0, chaotic = 0;
   double slowest_draft = 0, slowest_final = 0, largest_met = 0, largest_missed = 0;
   for (const unsigned seed : seeds_of("puppet_drags_test", {1}))
     for (int i = 0; i < count; ++i) {
       std::mt19937 random(seed + 1000003u * static_cast<unsigned>(i));
       INFO("seed " << seed << ", drag " << i);
       const Puppet puppet = random_puppet(random);
+      ++drags;
       const auto deformer = method.prepare(puppet.rest, nullptr);
       const Dragged drag = dragged(puppet, *deformer, random);
       CHECK(drag.proved);
@@ -88,24 +93,26 @@ TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it
       const SampledMap released = deformer->deform(drag.pose, {}, drag.last.solution.get());
       slowest_final = std::max(slowest_final, now_ms() - start);
       CHECK(released.status == SampledMap::Status::certified);
-      // Another program, another history, and a machine that rounds differently.
+      // Another program, another history.
       const auto again = method.prepare(puppet.rest, nullptr);
+      const auto apart_from = [&](const SampledMap& other) {
+        return (other.f - released.f).cwiseAbs().maxCoeff() / puppet.size;
+      };
+      const bool met = released.note.find("short") == std::string::npos;
+      const double goal = met ? 1e-6 : 1e-4;
+      CHECK(apart_from(again->deform(drag.pose, {})) <= goal);
+      // A machine that rounds differently. Where a picture is stretched a hundred times, hundreds
+      // of steps amplify rounding.
       Pose rounded = drag.pose;
       for (PosePin& pin : rounded.pins) pin.position *= 1 + 4e-16 * (random() % 3);
-      const SampledMap reopened = again->deform(rounded, {});
-      const double apart = (reopened.f - released.f).cwiseAbs().maxCoeff() / puppet.size;
-      const bool met = released.note.find("short") == std::string::npos;
+      const double apart = apart_from(again->deform(rounded, {}));
       missed += !met;
       (met ? largest_met : largest_missed) = std::max(met ? largest_met : largest_missed, apart);
-      // Where a picture is stretched a hundred times, hundreds of steps amplify rounding.
-      const auto strain = [&](const VectorXc& f) {
-        return isometric_energy_of(*puppet.rest.mesh, f);
-      };
-      constexpr double kExtreme = 20, kUsual = 4;  // 2 is rigid
-      if (strain(released.f) < kExtreme)
-        CHECK(apart <= (met ? 1e-6 : 1e-4));
+      constexpr double kExtreme = 20;  // 2 is rigid
+      if (isometric_energy_of(*puppet.rest.mesh, released.f) < kExtreme)
+        CHECK(apart <= goal);
       else
-        chaotic += apart > (met ? 1e-6 : 1e-4);
+        chaotic += apart > goal;
       // The turns lead back to the drag's minimum. A picture that is wound up may jump into
       // another.
       const double jump = (released.f - drag.last.f).cwiseAbs().maxCoeff() / puppet.size;
@@ -117,10 +124,10 @@ TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it
       CHECK(report.min_sigma >= released.extremes->smallest - 1e-9);
       CHECK(report.max_sigma <= released.extremes->largest + 1e-9);
     }
-  CHECK(chaotic <= 1 + count / 20);
+  CHECK(chaotic <= 1 + drags / 40);
   if (given)
     std::printf(
         "%d drags: slowest draft %.1f ms, slowest final %.0f ms; finals agree to %.1e of the size "
         "where pins are met, %.1e elsewhere (%d); %d moved by more than a tenth at the release\n",
-        2 * count, slowest_draft, slowest_final, largest_met, largest_missed, missed, moved_far);
+        drags, slowest_draft, slowest_final, largest_met, largest_missed, missed, moved_far);
 }
