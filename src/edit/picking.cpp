@@ -7,15 +7,32 @@
 
 namespace holomorph {
 
-std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {
+namespace {
+
+std::span<const Complex> shown_positions(const Workspace& workspace) {
   const LiveMap& map = workspace.map();
-  if (!map.has_map()) return {};
-  const Mesh& mesh = *map.drawn();
-  const std::span<const Complex> positions =
-      workspace.at_rest() ? std::span<const Complex>(mesh.vertices) : as_span(map.map().f);
-  const auto found = locate(mesh, positions, z);
+  return workspace.at_rest() ? std::span<const Complex>(map.drawn()->vertices)
+                             : as_span(map.map().f);
+}
+
+}  // namespace
+
+std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {
+  if (!workspace.map().has_map()) return {};
+  const Mesh& mesh = *workspace.map().drawn();
+  const auto found = locate(mesh, shown_positions(workspace), z);
   if (!found) return {};
   return found->in(mesh, mesh.vertices);
+}
+
+bool is_in_hole(const Workspace& workspace, Complex z) {
+  if (!workspace.map().has_map() || rest_at(workspace, z)) return false;
+  const Mesh& mesh = *workspace.map().prepared()->mesh;
+  const std::span<const Complex> positions = shown_positions(workspace);
+  Points outer;
+  for (Index i = 0; i < mesh.boundary_loops().length(0); ++i)
+    outer.push_back(positions[static_cast<size_t>(mesh.boundary[static_cast<size_t>(i)])]);
+  return encloses(outer, z);
 }
 
 Complex posed_at(const LiveMap& map, Complex rest) {

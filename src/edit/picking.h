@@ -8,6 +8,8 @@ namespace holomorph {
 /// The rest position of the picture point that is displayed at z; none if z is outside the picture
 /// or no map is available yet.
 std::optional<Complex> rest_at(const Workspace& workspace, Complex z);
+/// Whether z is in a hole of the picture as it is shown.
+bool is_in_hole(const Workspace& workspace, Complex z);
 
 /// The image of a rest point under the map. Returns the point itself if it is outside the mesh or
 /// no map is available yet.

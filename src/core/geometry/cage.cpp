@@ -403,7 +403,7 @@ std::optional<Error> crossing_fault(const FlatCage& flat) {
   const Loops loops = PolygonView(flat).loops();
   const Index first = loops.loop_of(crossing->first), second = loops.loop_of(crossing->second);
   const std::string what =
-      first == second ? "the rest cage crosses itself"
+      first == second ? loop_name(first) + " crosses itself"
       : first == 0 ? "hole " + std::to_string(second) + " crosses the outer loop of the rest cage"
                    : "holes " + std::to_string(first) + " and " + std::to_string(second) +
                          " of the rest cage cross";

@@ -81,8 +81,7 @@ class PenTool final : public HandleTool {
       }
     }
     if (!input.pressed) return;
-    if (deformation.has_cage() && workspace.at_rest() &&
-        is_in_hole(deformation.rest, input.position))
+    if (deformation.has_cage() && is_in_hole(workspace, input.position))
       return workspace.messages.say(
           "This is a hole already. Click the picture to draw another, or outside to draw a cage.");
     workspace.selection.clear();
@@ -104,10 +103,6 @@ class PenTool final : public HandleTool {
   static bool is_on_picture(const Workspace& workspace, Complex z) {
     return workspace.at_rest() ? contains(workspace.shown.deformation().rest, z)
                                : rest_at(workspace, z).has_value();
-  }
-
-  static bool is_in_hole(const Cage& cage, Complex z) {
-    return !contains(cage, z) && encloses(outline_of(loop_of(cage, 0)), z);
   }
 
   void close(Workspace& workspace) {
@@ -132,10 +127,9 @@ class PenTool final : public HandleTool {
     Deformation drawn =
         with_hole(workspace.shown.deformation(), hole, posed, workspace.keyframe_images(rest));
     if (const auto fault = rest_fault(drawn.rest))
-      return workspace.messages.complain(
-          "The hole must lie inside the cage, without crossing or touching its edges, other holes "
-          "or itself. Backspace removes its last point.",
-          fault->where());
+      return workspace.messages.complain("This hole cannot be used: " + std::string(fault->what()) +
+                                             ". Backspace removes the last point.",
+                                         fault->where());
     if (!workspace.commit("Draw hole", std::move(drawn))) return;
     path_.cancel();
     workspace.mode = EditMode::pose;

@@ -35,16 +35,23 @@ TEST_CASE("Pen: a path that starts inside the cage becomes a hole, one outside a
   draw_hole(desk, {{150, 30}, {180, 30}, {165, 60}});
   CHECK(desk.deformation().rest.holes == std::vector<Index>{4, 8});
   CHECK(desk.steps() == ++steps);
-  // A hole that crosses the cage is refused, and its path is kept.
-  desk.click({30, 30});
-  desk.click({-30, 30});
-  desk.click({-30, 60});
-  CHECK(desk.tool().key(Key::enter, desk.workspace));
-  CHECK(desk.steps() == steps);
-  CHECK(desk.tool().busy());
-  CHECK_THAT(desk.workspace.messages.toasts.back().text,
-             Catch::Contains("must lie inside the cage"));
-  desk.tool().key(Key::escape, desk.workspace);
+  // Holes that cross something are refused with its name, and their paths are kept.
+  for (const auto& [path, expected] :
+       {std::pair<Points, const char*>({{30, 30}, {-30, 30}, {-30, 60}},
+                                       "hole 3 crosses the outer loop"),
+        {{{30, 30}, {90, 60}, {30, 80}}, "holes 1 and 3"},
+        {{{20, 20}, {50, 50}, {50, 20}, {20, 50}}, "hole 3 of the rest cage crosses itself"},
+        {{{50, 30}, {130, 30}, {130, 100}, {50, 100}}, "hole 1 lies inside hole 3"}}) {
+    for (const Complex& z : path) desk.click(z);
+    CHECK(desk.tool().key(Key::enter, desk.workspace));
+    CHECK(desk.steps() == steps);
+    CHECK(desk.tool().busy());
+    CHECK_THAT(desk.workspace.messages.toasts.back().text, Catch::Contains(expected));
+    desk.tool().key(Key::escape, desk.workspace);
+  }
+  // Nor does a path begin in a hole.
+  desk.click({90, 60});
+  CHECK_FALSE(desk.tool().busy());
   run("edit.undo", desk.workspace);
   CHECK(desk.deformation().rest.holes == std::vector<Index>{4});
   // A path that starts outside replaces the cage.
