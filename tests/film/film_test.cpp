@@ -154,11 +154,11 @@ TEST_CASE("The rectangle of a film fits the whole motion tightly at any frame ra
     Deformation deformation = with_cage(Deformation{}, Points{{5, 5}, {35, 5}, {35, 25}, {5, 25}});
     const Cage rest = deformation.rest;
     for (int key = 0; key < 4; ++key) {
-      const Complex turn = std::polar(number(0.5, 3), number(-3, 3)),
-                    by(number(-200, 200), number(-200, 200));
+      const double scale = number(0.5, 3), angle = number(-3, 3);
+      const Complex turn = std::polar(scale, angle), by = 200.0 * random_complex(random);
       for (size_t i = 0; i < rest.segments.size(); ++i)
         deformation.pose.segments[i][0] =
-            turn * rest.segments[i][0] + by + Complex(number(-5, 5), number(-5, 5));
+            turn * rest.segments[i][0] + by + 5.0 * random_complex(random);
       deformation =
           with_key(deformation,
                    key == 0 ? number(0, 1) : deformation.keyframes.back().time + number(0.1, 3));

@@ -18,11 +18,13 @@ using namespace holomorph;
 namespace {
 
 /// The value of the puppet's map divided by that of Chen and Weber's, with the same basis, samples,
-/// pins and weight.
+/// pins and weight. With the usual six samples for each vertex, their f_z may come close to 0
+/// between samples; the value of the octopus is then 1 % too low.
 double ratio(const Cage& cage, const Points& pins, const Points& targets) {
   constexpr double kWeight = 1e5;
   const int vertices = BoundaryBasis::usual_size(2 * cage.size());
-  const auto basis = std::make_shared<const BoundaryBasis>(cage, vertices, 6 * vertices);
+  constexpr int kSamplesEach = 12;
+  const auto basis = std::make_shared<const BoundaryBasis>(cage, vertices, kSamplesEach * vertices);
   const Index count = static_cast<Index>(pins.size());
   const Mesh mesh = domain_mesh(cage, {1000});
   const IsometricSpace space(basis, mesh, {pins, count, VectorXd::Ones(count), {}, {}}, {}, {}, {});
@@ -43,7 +45,7 @@ double ratio(const Cage& cage, const Points& pins, const Points& targets) {
 TEST_CASE("Puppet: on the samples, the energy is at most that of Chen and Weber's method") {
   // In the thin, strongly bent arms of the octopus, ln f_z needs more vertices than f does.
   for (const auto& [name, most] :
-       {std::pair<std::string, double>("octopus", 1.02), {"gecko", 1.001}, {"giraffe", 1.001}}) {
+       {std::pair<std::string, double>("octopus", 1.006), {"gecko", 1.001}, {"giraffe", 1.001}}) {
     const Scene scene = load_scene(HOLOMORPH_SOURCE "/assets/" + name + ".json").scene;
     Points pins, targets;
     for (const Pin& pin : scene.deformation().pins) {
@@ -60,7 +62,6 @@ TEST_CASE("Puppet: on the samples, the energy is at most that of Chen and Weber'
 TEST_CASE("Puppet: on other animals in random gentle poses, the energy is nearly that, too") {
   for (const unsigned seed : seeds_of("energy comparison", {})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (const std::string name : {"snake", "tiger", "fish"}) {
       const std::string path = HOLOMORPH_SOURCE "/assets/" + name + ".png";
       AutoCageOptions options;
@@ -73,7 +74,7 @@ TEST_CASE("Puppet: on other animals in random gentle poses, the energy is nearly
         if (std::ranges::any_of(pins, [&](Complex p) { return std::abs(p - z) < 0.15 * size; }))
           continue;
         pins.push_back(z);
-        targets.push_back(z + 0.04 * size * Complex(unit(random), unit(random)));
+        targets.push_back(z + 0.04 * size * random_complex(random));
       }
       const double found = ratio(cage, pins, targets);
       INFO(name << ", " << cage.size() << " points, " << pins.size() << " pins");

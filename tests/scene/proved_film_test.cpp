@@ -30,7 +30,6 @@ Deformation film_of(const std::string& name, const std::string& method, std::mt1
   deformation.parameters.clear();
   deformation.pose = deformation.rest;
   const double size = box_of(outline_of(deformation.rest)).diagonal();
-  std::uniform_real_distribution<double> unit(-1, 1);
   const auto key = [&](double time) {
     for (size_t i = 0; i < 2; ++i) deformation.pins[i].pose = deformation.pins[i].rest;
     deformation.keyframes.push_back({time, whole_pose_of(deformation)});
@@ -41,8 +40,7 @@ Deformation film_of(const std::string& name, const std::string& method, std::mt1
   for (size_t i = 0; i < deformation.pins.size(); ++i)
     deformation.pins[i].pose = posed.pins[i].pose;
   key(1);
-  for (Pin& pin : deformation.pins)
-    pin.pose = pin.rest + 0.08 * size * Complex(unit(random), unit(random));
+  for (Pin& pin : deformation.pins) pin.pose = pin.rest + 0.08 * size * random_complex(random);
   key(2.5);
   return deformation;
 }

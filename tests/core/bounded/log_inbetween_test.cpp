@@ -90,14 +90,13 @@ std::vector<int> inner_vertices(const Cage& cage, int vertices, size_t count,
 TEST_CASE("In-betweens of maps without folds do not fold, and still pins do not slide") {
   for (const unsigned seed : seeds_of("certified in-betweens", {1, 2})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (const Cage& cage : {bar(), frame()}) {
       const std::vector<int> pinned = inner_vertices(cage, 800, 5, random);
       const Stage stage(cage, pinned);
       Points from = stage.pins, to = stage.pins;  // the first two pins are still
       for (size_t i = 2; i < from.size(); ++i) {
-        from[i] += 0.1 * stage.size * Complex(unit(random), unit(random));
-        to[i] += 0.25 * stage.size * Complex(unit(random), unit(random));
+        from[i] += 0.1 * stage.size * random_complex(random);
+        to[i] += 0.25 * stage.size * random_complex(random);
       }
       const LogInbetween::Key a = stage.key(from, 0), b = stage.key(to, 1);
       std::vector<char> held(stage.pins.size(), 0);
@@ -185,12 +184,11 @@ TEST_CASE("Smooth in-betweens pass through keys with one velocity") {
   std::mt19937 random(8);
   const std::vector<int> pinned = inner_vertices(bar(), 500, 4, random);
   const Stage stage(bar(), pinned, 500);
-  std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<LogInbetween::Key> keys;
   for (const double time : {0.0, 1.0, 1.7, 3.0}) {
     Points targets = stage.pins;
     for (size_t i = 1; i < targets.size(); ++i)
-      targets[i] += 0.08 * stage.size * Complex(unit(random), unit(random));
+      targets[i] += 0.08 * stage.size * random_complex(random);
     keys.push_back(stage.key(targets, time));
   }
   const std::vector<char> held{1, 0, 0, 0};
@@ -210,12 +208,11 @@ TEST_CASE("Smooth in-betweens pass through keys with one velocity") {
 TEST_CASE("Smooth in-betweens are certified next to keys that are much more distorted") {
   for (const unsigned seed : seeds_of("distorted neighbors", {3, 4})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     const std::vector<int> pinned = inner_vertices(bar(), 800, 4, random);
     const Stage stage(bar(), pinned);
     const auto posed = [&](double reach, double time) {
       Points to = stage.pins;
-      for (Complex& z : to) z += reach * stage.size * Complex(unit(random), unit(random));
+      for (Complex& z : to) z += reach * stage.size * random_complex(random);
       return stage.key(to, time);
     };
     const LogInbetween::Key before = posed(0.5, 0), a = posed(0.02, 1), b = posed(0.02, 2),

@@ -77,10 +77,9 @@ TEST_CASE("Chen, Weber 2017: pins at rest or moved rigidly give a rigid motion")
 TEST_CASE("Chen, Weber 2017: the result is a minimum without folds, near the puppet's energy") {
   for (const unsigned seed : seeds_of("Chen, Weber 2017", {1, 2, 3})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     const Points pins{{.5, 0}, {2, .2}, {4, -.2}, {5.5, 0}};
     Points targets = pins;
-    for (Complex& z : targets) z += 0.5 * Complex(unit(random), unit(random));
+    for (Complex& z : targets) z += 0.5 * random_complex(random);
     constexpr double kWeight = 1e4;
     const Stage stage(kBar, pins, targets, kWeight);
     const HarmonicIsometricMap map = harmonic_isometric(*stage.basis, stage.problem);
@@ -88,7 +87,7 @@ TEST_CASE("Chen, Weber 2017: the result is a minimum without folds, near the pup
     CHECK(stage.value(map.phi, map.psi) == Approx(map.total).epsilon(1e-9));
     for (int k = 0; k < 20; ++k) {
       const auto nearby = [&](VectorXc coefficients) {
-        for (Complex& z : coefficients) z += 1e-5 * Complex(unit(random), unit(random));
+        for (Complex& z : coefficients) z += 1e-5 * random_complex(random);
         return coefficients;
       };
       CHECK(stage.value(nearby(map.phi), nearby(map.psi)) >= map.total - 1e-9);

@@ -260,34 +260,32 @@ TEST_CASE("Holes: harmonic coordinates of a ring are logarithms of the radius") 
 TEST_CASE("Holes: maps are single-valued, and iterating methods without folds prove it") {
   for (const unsigned seed : seeds_of("single-valued maps", {1, 2})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     const Cage cage = seed == 1 ? ring() : random_domain(random);
     for (const char* id : {"cage", "pins", "harmonic", "puppet", "bounded"}) {
       const Method& method = method_named(id);
       for (const double space : {0, 1, 2}) {
         if (space > 0 && method.id != "bounded") continue;
-        Rest rest = rest_for(cage, Precision::full, 150);
+        // Triangles that are too large flip, although the map itself does not fold.
+        const bool proved = method.id == "puppet" || method.id == "bounded";
+        Rest rest = rest_for(cage, Precision::full, proved ? 800 : 150);
         if (method.id == "bounded") rest.parameters = {{"space", space}};
         const double size = box_of(rest.samples).diagonal();
         Pose pose{cage, {}};
         for (Points& segment : pose.cage.segments)
-          for (Complex& z : segment) z += 0.05 * size * Complex(unit(random), unit(random));
+          for (Complex& z : segment) z += 0.05 * size * random_complex(random);
         const std::vector<char> outer = boundary_marks(*rest.mesh);
-        for (size_t v = 0; method.uses_pins && v < outer.size() && rest.pins.size() < 4; v += 29)
-          if (!outer[v]) {
+        for (size_t v = 0; method.uses_pins && v < outer.size() && rest.pins.size() < 4; ++v)
+          if (!outer[v] && v * 5 >= outer.size() * rest.pins.size()) {
             rest.pins.push_back({rest.samples[v]});
-            pose.pins.push_back(
-                {rest.samples[v] + 0.12 * size * Complex(unit(random), unit(random))});
+            pose.pins.push_back({rest.samples[v] + 0.12 * size * random_complex(random)});
           }
         INFO(method.id << ", space " << space);
         const auto deformer = method.prepare(rest, nullptr);
         const SampledMap map = deformer->deform(pose, {});
         const auto points = deformer->point_map(pose);
         CHECK(largest_seam(*rest.mesh, map.f, *points) < 1e-5 * size);
-        if (method.id != "puppet" && method.id != "bounded") continue;
+        if (!proved) continue;
         INFO(map.note);
-        // The mesh of this test may be too coarse for a map that is proved.
-        if (map.note.find("too coarse") != std::string::npos) continue;
         CHECK(map.status == SampledMap::Status::certified);
         CHECK(injectivity_of(*rest.mesh, map.f).turning_number == Approx(1).margin(0.01));
       }
@@ -298,13 +296,12 @@ TEST_CASE("Holes: maps are single-valued, and iterating methods without folds pr
 TEST_CASE("Holes: every point of the picture is found again, and nothing in the holes") {
   for (const unsigned seed : seeds_of("inverses with holes", {4})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (const char* id : {"cage", "puppet", "harmonic"}) {
       const Method& method = method_named(id);
       Rest rest = rest_for(ring(), Precision::full, 600);
       Pose pose{rest.cage, {}};
       for (Points& segment : pose.cage.segments)
-        for (Complex& z : segment) z = bend(z) + 2.0 * Complex(unit(random), unit(random));
+        for (Complex& z : segment) z = bend(z) + 2.0 * random_complex(random);
       const auto deformer = method.prepare(rest, nullptr);
       const SampledMap map = deformer->deform(pose, {});
       const auto points = deformer->point_map(pose);
@@ -342,7 +339,6 @@ TEST_CASE("Holes: methods that do not allow them say so") {
 TEST_CASE("Holes: puppets with random holes and pins are certified and closed") {
   for (const unsigned seed : seeds_of("puppets with holes", {7})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (int k = 0; k < 3; ++k) {
       Rest rest = rest_for(random_domain(random), Precision::full, 500);
       const double size = box_of(rest.samples).diagonal(), reach = k == 0 ? 0.1 : k == 1 ? 0.4 : 2;
@@ -351,7 +347,7 @@ TEST_CASE("Holes: puppets with random holes and pins are certified and closed") 
       for (int p = 0; p < 5; ++p) {
         const Complex z = rest.samples[any(random)];
         rest.pins.push_back({z});
-        pose.pins.push_back({z + reach * size * Complex(unit(random), unit(random))});
+        pose.pins.push_back({z + reach * size * random_complex(random)});
       }
       const auto deformer = method_named("puppet").prepare(rest, nullptr);
       SampledMap map = deformer->deform(pose, {});
@@ -374,7 +370,6 @@ TEST_CASE("Holes: puppets with random holes and pins are certified and closed") 
 TEST_CASE("Holes: puppets are closed in sudden drafts and at limits, too") {
   for (const unsigned seed : seeds_of("closed puppets", {8})) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1, 1);
     const Cage cage = random_domain(random);
     const Mesh mesh = domain_mesh(cage, {500});
     const int vertices = BoundaryBasis::usual_size(2 * cage.size());
@@ -390,7 +385,7 @@ TEST_CASE("Holes: puppets are closed in sudden drafts and at limits, too") {
       IsometricTarget target{VectorXc::Zero(5), {}};
       IsometricMap map = space.solved(target, {});
       for (const double reach : {0.3, 1.0, 3.0}) {
-        for (Complex& z : target.stations) z = reach * size * Complex(unit(random), unit(random));
+        for (Complex& z : target.stations) z = reach * size * random_complex(random);
         INFO("seed " << seed << ", reach " << reach << (bounds ? ", limited" : ""));
         for (int frame = 0; frame < 3; ++frame) {
           map = space.followed(target, {}, map);
