@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/arithmetic.h"
 #include "core/error.h"
+#include "core/isometric/pin_curvature.h"
 #include "core/solvers/real_form.h"
 
 namespace holomorph {
@@ -322,98 +321,6 @@ class IsometricSolver {
     add_gram(columns, columns.cols(), 0, hessian_);
   }
 
-  /// The second derivatives of f at a node of a path, times the pull of the stations behind it:
-  /// Re(alpha dl^2 + 2 beta dl dnu) is what they add to the value.
-  struct Bend {
-    Complex alpha, beta;
-  };
-
-  /// From f'' = w e^l dl^2 + conj(w e^l (nu dl^2 + 2 dl dnu)), and 2 penalty s Re(conj(c) c'').
-  std::vector<Bend> bends(const State& s) const {
-    const auto& pieces = system_.paths.pieces();
-    const std::vector<Index>& ends = system_.paths.ends();
-    // The pull on each piece: the sum of s conj(c) over the stations behind it. The mean of the
-    // offsets is zero, so the centering does not matter.
-    std::vector<Complex> pull(pieces.size(), 0);
-    for (size_t j = 0; j < ends.size(); ++j)
-      if (ends[j] >= 0)
-        pull[static_cast<size_t>(ends[j])] += 2 * settings_.penalty *
-                                              system_.station_weights[static_cast<Index>(j)] *
-                                              std::conj(s.offsets[static_cast<Index>(j)]);
-    for (size_t e = pieces.size(); e-- > 0;)
-      if (pieces[e].parent >= 0) pull[static_cast<size_t>(pieces[e].parent)] += pull[e];
-    std::vector<Bend> result;
-    for (Index k = 0; k < s.phi.size(); ++k) {
-      const Complex g = pull[static_cast<size_t>(k / PathTree::kNodes)];
-      result.push_back({g * s.phi[k] + std::conj(g) * s.psi[k], std::conj(g) * s.phi[k]});
-    }
-    return result;
-  }
-
-  /// The sum of all second derivatives, as the lower triangle of a matrix.
-  MatrixXd second_derivatives(const std::vector<Bend>& bends) const {
-    const Index count = static_cast<Index>(bends.size());
-    const Eigen::MatrixXf re = system_.nodes_by_column.re.cast<float>(),
-                          im = system_.nodes_by_column.im.cast<float>();
-    // The real and imaginary parts of the sum of factor b b^T over the nodes.
-    Eigen::MatrixXf scaled_re(n_, count), scaled_im(n_, count);
-    const auto sum = [&](auto factor, Eigen::MatrixXf& sum_re, Eigen::MatrixXf& sum_im) {
-      for (Index k = 0; k < count; ++k) {
-        const std::complex<float> c(factor(bends[static_cast<size_t>(k)]));
-        scaled_re.col(k) = c.real() * re.col(k) - c.imag() * im.col(k);
-        scaled_im.col(k) = c.real() * im.col(k) + c.imag() * re.col(k);
-      }
-      sum_re.setZero(n_, n_);
-      sum_im.setZero(n_, n_);
-      add_product(im, scaled_im, count, 0, 0, sum_re);
-      sum_re = -sum_re;
-      add_product(re, scaled_re, count, 0, 0, sum_re);
-      add_product(re, scaled_im, count, 0, 0, sum_im);
-      add_product(im, scaled_re, count, 0, 0, sum_im);
-    };
-    MatrixXd result = MatrixXd::Zero(4 * n_, 4 * n_);
-    Eigen::MatrixXf sum_re, sum_im;
-    sum([](const Bend& bend) { return bend.alpha; }, sum_re, sum_im);
-    result.block(0, 0, n_, n_) = sum_re.cast<double>();
-    result.block(n_, 0, n_, n_) = -sum_im.cast<double>();
-    result.block(n_, n_, n_, n_) = -sum_re.cast<double>();
-    sum([](const Bend& bend) { return bend.beta; }, sum_re, sum_im);
-    result.block(2 * n_, 0, n_, n_) = sum_re.cast<double>();
-    result.block(2 * n_, n_, n_, n_) = -sum_im.cast<double>();
-    result.block(3 * n_, 0, n_, n_) = -sum_im.cast<double>();
-    result.block(3 * n_, n_, n_, n_) = -sum_re.cast<double>();
-    return result;
-  }
-
-  /// The sum of the positive parts of the second derivatives at each node.
-  MatrixXd convex_part(const std::vector<Bend>& bends) const {
-    Eigen::MatrixXf columns(4 * n_, 2 * static_cast<Index>(bends.size()));
-    Index used = 0;
-    for (size_t k = 0; k < bends.size(); ++k) {
-      // A form in (Re dl, Im dl, Re dnu, Im dnu). Its eigenvalues come in pairs of opposite sign.
-      Eigen::Matrix4d form;
-      const double ar = bends[k].alpha.real(), ai = bends[k].alpha.imag(),
-                   br = bends[k].beta.real(), bi = bends[k].beta.imag();
-      form << ar, -ai, br, -bi, -ai, -ar, -bi, -br, br, -bi, 0, 0, -bi, -br, 0, 0;
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(form);
-      const auto re = system_.nodes_by_column.re.col(static_cast<Index>(k)),
-                 im = system_.nodes_by_column.im.col(static_cast<Index>(k));
-      for (int i = 2; i < 4; ++i) {
-        const double value = eigen.eigenvalues()[i];
-        if (!(value > 0)) continue;
-        const Eigen::Vector4d v = std::sqrt(value) * eigen.eigenvectors().col(i);
-        auto column = columns.col(used++);
-        column.segment(0, n_) = (v[0] * re + v[1] * im).cast<float>();
-        column.segment(n_, n_) = (-v[0] * im + v[1] * re).cast<float>();
-        column.segment(2 * n_, n_) = (v[2] * re + v[3] * im).cast<float>();
-        column.segment(3 * n_, n_) = (-v[2] * im + v[3] * re).cast<float>();
-      }
-    }
-    Eigen::MatrixXf sum = Eigen::MatrixXf::Zero(4 * n_, 4 * n_);
-    add_gram(columns, used, 0, sum);
-    return sum.cast<double>();
-  }
-
   void add_frames(const State& s) {
     for (Index k = 0; k < s.l_off.size(); ++k) {
       const double weight = system_.frame_weights[k];
@@ -440,14 +347,14 @@ class IsometricSolver {
     if (!hessian_.allFinite()) return false;
     const bool is_far = s.offsets.size() > 0 && s.offsets.cwiseAbs().maxCoeff() > settings_.far;
     if (std::isinf(settings_.far) || !(is_far || curved_)) return factor();
-    const std::vector<Bend> bent = bends(s);
+    const PinCurvature pins(system_, s.phi, s.psi, settings_.penalty, s.offsets);
     if (!near_) {
-      hessian_ += convex_part(bent);
+      hessian_ += pins.convex_part();
       return factor();
     }
-    const MatrixXd exact = second_derivatives(bent);
+    const MatrixXd exact = pins.second_derivatives();
     if (cholesky_.factor(hessian_ + exact)) return true;
-    const MatrixXd convex = convex_part(bent);
+    const MatrixXd convex = pins.convex_part();
     for (const double part : {0.9, 0.7, 0.4})
       if (cholesky_.factor(hessian_ + (1 - part) * convex + part * exact)) return true;
     hessian_ += convex;
