@@ -218,10 +218,10 @@ VectorXc LogInbetween::without_jumps(VectorXc f, const VectorXc& gaps) const {
   return f;
 }
 
-/// The change that keeps the constant integrals, by Gauss-Newton steps.
-LogMap LogInbetween::holding(const Interval& interval, double share, Sum sum) const {
+/// The change that keeps the constant integrals, by Gauss-Newton steps; `conformal`: of l alone.
+LogMap LogInbetween::holding(const Interval& interval, double share, Sum sum,
+                             bool conformal) const {
   constexpr int kSteps = 3;
-  const bool conformal = interval.keys[1]->map.w.isZero(0) && interval.keys[2]->map.w.isZero(0);
   const VectorXc target = (1 - share) * interval.at_from + share * interval.at_to;
   for (int step = 0; step < kSteps && interval.constant.rows() > 0; ++step) {
     const Derivatives d = weighted(sum);
@@ -243,21 +243,24 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
   for (size_t p = 0; p < 4; ++p)
     for (size_t k = 0; k < 4; ++k) weights[k] += bernstein[p] * controls[p][k];
   Sum sum = owner->sum_of(keys, weights);
-  const LogMap whole = owner->holding(*this, share, sum);
   Blend blend;
-  // If the changed map does not certify, it moves toward the blend, which does.
-  constexpr double kLeast = 1e-3;
+  const auto certifies_with = [&](const LogMap& change, double part) {
+    sum.change.l = part * change.l;
+    sum.change.w = part * change.w;
+    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
+    return blend.certified;
+  };
+  const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
+  const Sum blended = sum;
+  const LogMap whole = owner->holding(*this, share, blended, conformal);
   double part = 1;
-  for (; part > kLeast; part *= 0.5) {
-    sum.change.l = part * whole.l;
-    sum.change.w = part * whole.w;
-    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
-    if (blend.certified) break;
-  }
-  if (!blend.certified) {
-    sum.change.l.setZero();
-    sum.change.w.setZero();
-    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
+  // A larger change, of l alone, does not increase |nu|. If the changed map does not certify either
+  // way, it moves toward the blend, which does.
+  if (!certifies_with(whole, 1) &&
+      (conformal || !certifies_with(owner->holding(*this, share, blended, true), 1))) {
+    constexpr double kLeast = 1e-3;
+    part = 0.5;
+    while (!certifies_with(whole, part) && part > 0) part = part > kLeast ? 0.5 * part : 0;
   }
   const bool closed = owner->loops_.paths().empty() || part == 1;
   blend.certified = blend.certified && closed;

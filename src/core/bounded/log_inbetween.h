@@ -3,7 +3,8 @@
 // With l and nu of both keys blended by the same convex weights, |nu| and the smallest stretch stay
 // within the bounds of the keys, because they are convex. Smooth motion is a Bezier curve whose
 // inner points are certified, so all of its points are. Then the smallest change keeps those
-// stations still that both keys hold, and closes holes.
+// stations still that both keys hold, and closes holes. If it does not certify, a change of l alone
+// is tried, and then smaller changes.
 #pragma once
 
 #include <array>
@@ -84,7 +85,7 @@ class LogInbetween {
   double norm(const Sum& sum) const;
   double distance(const Key& a, const Key& b) const;
   std::array<double, 4> velocity(const std::array<const Key*, 4>& keys, size_t at) const;
-  LogMap holding(const Interval& interval, double share, Sum sum) const;
+  LogMap holding(const Interval& interval, double share, Sum sum, bool conformal) const;
   MapOnMesh::Values on_mesh(const Sum& sum) const;
   VectorXc without_jumps(VectorXc f, const VectorXc& gaps) const;
 
