@@ -64,8 +64,9 @@ class Motion {
   /// f at the mesh's vertices at a time. Constant before the first key and after the last key.
   VectorXc map_at(double time);
   /// The map at a time, with derivatives if requested. Between keys, it is certified if the method
-  /// proves its maps and both keys are certified, and otherwise blended triangle by triangle; at
-  /// keys, it has no status. `measures`: sets SampledMap::extremes, too.
+  /// proves its maps and both keys are certified, and otherwise blended triangle by triangle. At a
+  /// key, it has the key's certificate, if there is one. `measures`: sets SampledMap::extremes,
+  /// too.
   SampledMap sampled_at(double time, bool derivatives, bool measures = false);
   /// The deformation with its handles in their positions at a time. `map` must be map_at(time).
   /// Between two keyframes, the handles follow the picture around them.

@@ -323,15 +323,18 @@ class WindowTest(WindowCase):
             editor.wait(lambda s: s["method"] == "bounded" and not s["folds"] and s["status"] == "certified",
                         "a map without folds", 30)
 
+    def compare_methods(self, editor, rows):
+        editor.wait(lambda s: s["status"] == "certified", "a map")
+        editor.key("ctrl+shift+p")
+        editor.type("compare meth")
+        editor.key("Return")
+        editor.wait(lambda s: s["compared_rows"] == rows, "all rows", 120)
+
     def test_projections_of_other_methods_are_compared(self):
         shutil.copy(old_sample("octopus"), self.work)
         shutil.copy(os.path.join(SOURCE, "assets/octopus.png"), self.work)
         with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
-            editor.wait(lambda s: s["status"] == "certified", "a map")
-            editor.key("ctrl+shift+p")
-            editor.type("compare meth")
-            editor.key("Return")
-            editor.wait(lambda s: s["compared_rows"] == 6, "all rows", 120)
+            self.compare_methods(editor, rows=6)
             self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
             self.screenshot(editor, "compared")
 
@@ -339,11 +342,7 @@ class WindowTest(WindowCase):
         for name in ("octopus.json", "octopus.png"):
             shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
         with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
-            editor.wait(lambda s: s["status"] == "certified", "a map")
-            editor.key("ctrl+shift+p")
-            editor.type("compare meth")
-            editor.key("Return")
-            editor.wait(lambda s: s["compared_rows"] == 5, "all rows", 60)
+            self.compare_methods(editor, rows=5)
             self.screenshot(editor, "compared-pins")
 
     def draw_square_cage(self, editor):

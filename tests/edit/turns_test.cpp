@@ -39,15 +39,21 @@ std::vector<Complex> winding_path(double degrees) {
   return path;
 }
 
+/// A desk with a bar with pins and its map.
+struct BarDesk : TestWorkspace {
+  explicit BarDesk(const Deformation& bar, ToolId tool = ToolId::pin) {
+    workspace.commit("Bar", bar);
+    workspace.tools.active = tool;
+    settle();
+  }
+};
+
 }  // namespace
 
 TEST_CASE(
     "Puppet: a released drag stores turns in the same step, and the file gives the same map") {
-  TestWorkspace desk;
+  BarDesk desk(pinned_bar("puppet"));
   Workspace& workspace = desk.workspace;
-  workspace.commit("Puppet", pinned_bar("puppet"));
-  workspace.tools.active = ToolId::pin;
-  desk.settle();
   REQUIRE(workspace.map().has_map());
   const size_t before = workspace.document.history().index();
   drag_last_pin(desk, winding_path(200));
@@ -73,13 +79,10 @@ TEST_CASE(
 }
 
 TEST_CASE("Puppet: pressing and dragging a new pin stores turns, too") {
-  TestWorkspace desk;
-  Workspace& workspace = desk.workspace;
   Deformation bar = pinned_bar("puppet");
   bar.pins.pop_back();
-  workspace.commit("Puppet", bar);
-  workspace.tools.active = ToolId::pin;
-  desk.settle();
+  BarDesk desk(bar);
+  Workspace& workspace = desk.workspace;
   const size_t steps = desk.steps();
   desk.press({550, 50});
   REQUIRE(workspace.shown.deformation().pins.size() == 3);
@@ -99,11 +102,8 @@ TEST_CASE("Puppet: pressing and dragging a new pin stores turns, too") {
 }
 
 TEST_CASE("Puppet: a pin without a turn leaves the other pins wound up") {
-  TestWorkspace desk;
+  BarDesk desk(pinned_bar("puppet"));
   Workspace& workspace = desk.workspace;
-  workspace.commit("Puppet", pinned_bar("puppet"));
-  workspace.tools.active = ToolId::pin;
-  desk.settle();
   drag_last_pin(desk, winding_path(300));
   const VectorXc before = workspace.map().map().f;
   REQUIRE(*desk.deformation().pins[2].turn > 4);
@@ -118,13 +118,9 @@ TEST_CASE("Puppet: a pin without a turn leaves the other pins wound up") {
 }
 
 TEST_CASE("Pins that another method moves lose their turns") {
-  TestWorkspace desk;
-  Workspace& workspace = desk.workspace;
   Deformation bar = pinned_bar("arap");
   for (Pin& pin : bar.pins) pin.turn = 6.0;
-  workspace.commit("Rigid", bar);
-  workspace.tools.active = ToolId::pin;
-  desk.settle();
+  BarDesk desk(bar);
   desk.drag({550, 50}, {540, 120});
   CHECK(desk.deformation().pins[0].turn == 6.0);
   CHECK(desk.deformation().pins[1].turn == 6.0);
@@ -132,11 +128,8 @@ TEST_CASE("Pins that another method moves lose their turns") {
 }
 
 TEST_CASE("Puppet: recorded motion has the turns of the recording, in each keyframe") {
-  TestWorkspace desk;
+  BarDesk desk(pinned_bar("puppet"), ToolId::select);
   Workspace& workspace = desk.workspace;
-  workspace.commit("Puppet", pinned_bar("puppet"));
-  workspace.tools.active = ToolId::select;
-  desk.settle();
   constexpr Modifiers kCtrl{true, false, false};
   const std::vector<Complex> path = winding_path(300);
   desk.press({550, 50}, kCtrl);
@@ -194,7 +187,7 @@ TEST_CASE("Puppet: Untwist forgets the turns, in one step") {
   CHECK(workspace.shown.deformation() == twisted);
 }
 
-TEST_CASE("Puppet: a keyframe shows the certificate of its map, like the frames beside it") {
+TEST_CASE("Puppet: a keyframe is proved to be free of folds, like the frames around it") {
   TestWorkspace desk;
   Workspace& workspace = desk.workspace;
   Deformation bar = pinned_bar("puppet");

@@ -1,5 +1,5 @@
-// Maps that a worker solves: the newest answer is displayed, drafts improve, and final maps equal
-// those of a fresh solve.
+// Maps that a worker solves: the newest answer is displayed, drafts improve, and final maps are the
+// same as if they were solved from scratch.
 #include <catch2/catch.hpp>
 
 #include "scene/keyframes.h"

@@ -10,8 +10,10 @@
 #include <array>
 #include <optional>
 
-#include "core/bounded/hole_closing.h"
+#include "core/bounded/certificate.h"
 #include "core/bounded/map_on_mesh.h"
+#include "core/bounded/tree_integrals.h"
+#include "core/mesh/hole_loops.h"
 
 namespace holomorph {
 

@@ -41,8 +41,8 @@ struct IsometricMap {
 
 class IsometricSpace {
  public:
-  /// The factors by which energies are multiplied at the samples: of the boundary's samples, then
-  /// of the inner samples. If empty, all factors are 1.
+  /// What the energy at each sample is multiplied by: first at the boundary's samples, then at the
+  /// inner ones. Empty: 1 everywhere.
   using Stiffness = VectorXd;
 
   /// The mesh must belong to the basis' domain. The boundary and the inner samples, which are

@@ -1,7 +1,7 @@
 // Closed paths around the holes of a mesh.
 //
 // A function with a given derivative is single-valued if the integral of the derivative along each
-// of these paths is 0. If an integral is not 0, the function jumps by this amount somewhere.
+// of these paths is 0. Otherwise, the function must jump by the value of that integral somewhere.
 #pragma once
 
 #include "core/mesh/antiderivative.h"

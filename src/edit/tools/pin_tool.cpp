@@ -72,7 +72,7 @@ class PinTool final : public HandleTool {
     make_picture_cage(workspace, [this, input, &workspace](Cage cage) {
       if (!encloses(outline_of(cage), input.position)) {
         workspace.messages.say(encloses(outline_of(loop_of(cage, 0)), input.position)
-                                   ? "This is an opening. Click the picture to set a pin."
+                                   ? "There is a hole here. Click the picture to set a pin."
                                    : "Click the largest part of the picture to set a pin.");
         return false;
       }

@@ -101,8 +101,8 @@ TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it
       const bool met = released.note.find("short") == std::string::npos;
       const double goal = met ? 1e-6 : 1e-4;
       CHECK(apart_from(again->deform(drag.pose, {})) <= goal);
-      // A machine that rounds differently. Where a picture is stretched a hundred times, hundreds
-      // of steps amplify rounding.
+      // A machine that rounds differently. Where a picture is stretched a hundredfold, rounding
+      // errors grow over hundreds of steps.
       Pose rounded = drag.pose;
       for (PosePin& pin : rounded.pins) pin.position *= 1 + 4e-16 * (random() % 3);
       const double apart = apart_from(again->deform(rounded, {}));
