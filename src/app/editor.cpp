@@ -12,10 +12,12 @@
 #include "app/dialogs/keys_window.h"
 #include "app/dialogs/palette.h"
 #include "app/files.h"
+#include "app/look/items.h"
 #include "app/panels/comparison_panel.h"
-#include "app/panels/hints.h"
+#include "app/panels/first_steps.h"
 #include "app/panels/panel_focus.h"
 #include "app/panels/panels.h"
+#include "app/panels/start_card.h"
 #include "app/panels/timeline_panel.h"
 #include "app/panels/toasts.h"
 #include "app/state_file.h"
@@ -32,7 +34,7 @@ class Editor {
  public:
   explicit Editor(const EditorOptions& options)
       : preferences_(load_preferences()),
-        window_(1280, 800, preferences_.ui_scale, preferences_.theme),
+        window_(1280, 800, preferences_.ui_scale, preferences_.theme, preferences_.reduce_motion),
         canvas_([this] { window_.wake(); }),
         comparison_([this] { window_.wake(); }),
         files_(
@@ -90,11 +92,11 @@ class Editor {
  private:
   void frame() {
     if (std::exchange(restyle_, false)) {
-      window_.set_style(preferences_.ui_scale, preferences_.theme);
+      window_.set_style(preferences_.ui_scale, preferences_.theme, preferences_.reduce_motion);
       fit_ = true;
     }
     window_.begin_frame(navigates_items(window_focus()));
-    const PanelSizes sizes = PanelSizes::at(window_.scale());
+    const PanelSizes sizes = PanelSizes::now();
     layout(sizes);
     const double start = now_ms();
     handle_events();
@@ -118,9 +120,11 @@ class Editor {
     files_.autosave();
     slowest_work_ms_ = std::max(slowest_work_ms_, now_ms() - start);
     draw_canvas();
-    draw_panels(input);
+    draw_panels(input, sizes);
     ImGui::Render();
     window_.end_frame();
+    moving_ = take_motion();
+    if (moving_) window_.wake();
     if (state_file_) write_state();
   }
 
@@ -135,6 +139,7 @@ class Editor {
     parts.asking = (files_.asking() && !files_.busy()) || palette_.open() || keys_.open();
     parts.question = files_.question();
     parts.in_panel = panel_focus_.held();
+    parts.moving = moving_;
     parts.theme = window_.theme();
     parts.scale = window_.scale();
     parts.slowest_ms = slowest_ms_;
@@ -146,16 +151,29 @@ class Editor {
   void layout(const PanelSizes& sizes) {
     Viewport& view = workspace_.display.viewport;
     view.left = sizes.toolbar;
-    view.top = sizes.menu;
+    view.top = sizes.menu + sizes.options;
     const double room = window_.width() - sizes.toolbar - sizes.inspector;
     const bool halved = workspace_.shows_surface();
     view.width = std::max(1.0, halved ? std::floor(room / 2) : room);
     if (halved != std::exchange(halved_, halved)) fit_ = true;
     const bool timed = workspace_.shown.timeline.visible && !workspace_.document.empty();
     view.height =
-        std::max(1.0, window_.height() - sizes.menu - sizes.status - (timed ? sizes.timeline : 0));
+        std::max(1.0, window_.height() - view.top - sizes.status - (timed ? sizes.timeline : 0));
     workspace_.display.handle_px = 10 * window_.scale();
-    if (std::exchange(fit_, false)) view.fit(content_box(workspace_));
+    if (std::exchange(fit_, false)) fit_all();
+  }
+
+  /// Fits the view to the picture, beside the start card if there is one.
+  void fit_all() {
+    Viewport& view = workspace_.display.viewport;
+    if (!start_card_.shows(workspace_) || !StartCard::has_room(workspace_))
+      return view.fit(content_box(workspace_));
+    const double card = static_cast<double>(StartCard::width());
+    Viewport part = view;
+    part.width -= card;
+    part.fit(content_box(workspace_));
+    view.zoom = part.zoom;
+    view.center = part.center + Complex(card / 2 / part.zoom, 0);
   }
 
   /// Fits the view to the posed picture of a newly opened scene, unless the user has already
@@ -352,63 +370,91 @@ class Editor {
   }
 
   void draw_canvas() {
-    const CanvasColors colors = canvas_colors(window_.theme());
+    const CanvasColors colors = canvas_colors();
     canvas_.draw(workspace_, {window_.framebuffer_width(), window_.framebuffer_height(),
                               static_cast<double>(window_.framebuffer_width()) / window_.width(),
-                              colors.canvas, colors.backdrop});
+                              colors.canvas, colors.page_a});
   }
 
-  void draw_panels(const Input& input) {
+  void draw_panels(const Input& input, PanelSizes sizes) {
     const double scale = window_.scale();
-    const OverlayStyle style{canvas_colors(window_.theme()), scale};
-    answer(draw_menu_bar(workspace_, preferences_,
-                         std::exchange(goes_to_menu_, false) ? &panel_focus_ : nullptr));
+    const OverlayStyle style{canvas_colors(), scale};
+    suppress_tooltips(palette_.open());
+    const PanelAnswer menus = draw_menu_bar(workspace_, preferences_, thumbnails_,
+                                            std::exchange(goes_to_menu_, false) ? &panel_focus_
+                                                                                : nullptr);
     StatusLine status;
     if (workspace_.document.empty()) {
       status.hint = "Open or drop a picture, or click a sample. " +
                     workspace_.actions.key_of("help.keys") + " lists keys and mouse gestures.";
-      answer(draw_welcome(workspace_, preferences_, samples_.shown(), files_.recoverable(), scale));
+      answer(draw_welcome(workspace_, preferences_, samples_, files_.recoverable(), thumbnails_,
+                          sizes));
     } else {
       draw_overlay(workspace_, current_tool().overlay(), style);
       draw_split_line(workspace_.display, style);
       if (canvas_.edited().heat_values().size() > 0)
         draw_legend(workspace_, canvas_.edited().heat_scale(), canvas_.edited().heat_values(),
                     style);
-      draw_toolbar(workspace_, scale);
+      draw_tool_bar(workspace_, sizes);
+      draw_options_bar(workspace_, sizes);
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
-      draw_inspector(workspace_, layers_, canvas_.edited().heat_scale(), scale, window_.theme());
-      const float offer = current_tool().busy() ? 0 : draw_cage_offer(workspace_, scale);
-      draw_missing_picture(workspace_, scale, offer);
-      // The cage offer already suggests the first step, so hints are hidden while it is shown.
-      if (preferences_.hints && offer == 0 && !draw_hints(workspace_, files_.has_kept(), scale)) {
-        preferences_.hints = false;
-        files_.keep_preferences();
-      }
-      if (workspace_.shown.timeline.visible) timeline_.draw(workspace_, scale);
-      draw_context_menu(workspace_);
+      draw_cards(style, sizes);
+      if (workspace_.shown.timeline.visible) timeline_.draw(workspace_, sizes);
+      const PanelAnswer context = draw_context_menu(workspace_, preferences_, thumbnails_);
       comparison_.draw(workspace_, style);
-      status.hint = current_tool().hint(workspace_);
-      if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
-      if (panel_focus_.held())
-        status.hint =
-            "Press Esc for the canvas; use arrow keys, Tab and Enter in this panel; press " +
-            workspace_.actions.key_of("view.next_panel") + " for the next panel";
-      if (workspace_.shown.timeline.recording)
-        status.hint = recording_hint(workspace_.shown.timeline);
-      if (input.inside) status.cursor = input.position;
-      if (input.inside && !workspace_.at_rest())
-        status.cursor_at_rest = rest_at(workspace_, input.position);
-      status.draft = workspace_.shown.preview.has_value() || workspace_.map().busy() ||
-                     workspace_.map().error().has_value();
-      status.by_operator = canvas_.edited().by_operator();
+      status = status_of(input);
+      if (!context.hint.empty()) status.hint = context.hint;
     }
-    draw_status_bar(workspace_, status, scale);
+    if (!menus.hint.empty()) status.hint = menus.hint;
+    answer(menus);
+    draw_status_bar(workspace_, status, sizes);
     toasts_.draw(workspace_, style);
     if (workspace_.map().error() && workspace_.map().error()->where())
       draw_marker(workspace_, *workspace_.map().error()->where(), style);
     files_.draw(scale);
     keys_.draw(scale);
     answer(palette_.draw(workspace_, preferences_, scale));
+  }
+
+  /// Draws the cards and the inspector, whose lower part cards take if the canvas has no room.
+  void draw_cards(const OverlayStyle& style, PanelSizes sizes) {
+    const bool starts = start_card_.shows(workspace_) && !current_tool().busy();
+    const bool docks = starts && !StartCard::has_room(workspace_);
+    if (starts && !docks) start_card_.draw(workspace_, style);
+    bool closed = false;
+    first_steps_.follow(workspace_, files_.has_exported());
+    float docked = 0;
+    if (preferences_.hints && first_steps_.done()) closed = true;
+    // The start card already suggests the first step.
+    if (preferences_.hints && !starts && !closed && !first_steps_.draw(workspace_, closed))
+      docked = first_steps_.draw_docked(
+          workspace_, static_cast<float>(sizes.inspector),
+          static_cast<float>(window_.height() - sizes.status), closed);
+    if (closed) {
+      preferences_.hints = false;
+      files_.keep_preferences();
+    }
+    const InspectorParts parts{layers_, thumbnails_, preferences_, canvas_.edited().heat_scale(),
+                               docks ? &start_card_ : nullptr, style};
+    sizes.status += static_cast<double>(docked);
+    answer(draw_inspector(workspace_, parts, sizes));
+    draw_missing_picture(workspace_);
+  }
+
+  StatusLine status_of(const Input& input) {
+    StatusLine status;
+    status.hint = current_tool().hint(workspace_);
+    if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
+    if (panel_focus_.held())
+      status.hint = "Press Esc for the canvas; use arrow keys, Tab and Enter in this panel; press " +
+                    workspace_.actions.key_of("view.next_panel") + " for the next panel";
+    if (workspace_.shown.timeline.recording) status.hint = recording_hint(workspace_.shown.timeline);
+    if (input.inside) status.cursor = input.position;
+    if (input.inside && !workspace_.at_rest())
+      status.cursor_at_rest = rest_at(workspace_, input.position);
+    status.draft = workspace_.shown.preview.has_value() || workspace_.map().busy() ||
+                   workspace_.map().error().has_value();
+    return status;
   }
 
   Preferences preferences_;
@@ -419,10 +465,13 @@ class Editor {
   ToolId last_tool_ = ToolId::select;
   Samples samples_{[this] { window_.wake(); }};
   Toasts toasts_;
+  Thumbnails thumbnails_{[this] { window_.wake(); }};
+  StartCard start_card_{[this] { window_.wake(); }};
+  FirstSteps first_steps_;
   std::optional<StateFile> state_file_;
   std::string title_;
   bool fit_ = false, opened_ = false, halved_ = false, was_active_ = false, restyle_ = false,
-       menu_was_open_ = false, goes_to_menu_ = false;
+       menu_was_open_ = false, goes_to_menu_ = false, moving_ = false;
   double watched_ms_ = 0, slowest_ms_ = 0, slowest_work_ms_ = 0;
   Navigation navigation_;
   SplitLine split_line_;

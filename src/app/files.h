@@ -55,11 +55,8 @@ class Files {
   Jobs& jobs() { return jobs_; }
   FileChooser& chooser() { return dialog_; }
   bool has_quit() const { return quit_; }
-  /// Whether the document is saved with all its changes, or has been exported.
-  bool has_kept() const {
-    const Document& document = workspace_.document;
-    return exports_.has_exported() || (!document.path().empty() && !document.modified());
-  }
+  /// Whether a picture or film of the document was exported.
+  bool has_exported() const { return exports_.has_exported(); }
 
  private:
   using Then = std::function<void()>;

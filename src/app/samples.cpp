@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/clock.h"
 #include "raster/picture.h"
 #include "scene/document.h"
+#include "scene/keyframes.h"
+#include "scene/motion.h"
 
 namespace holomorph {
 namespace {
@@ -94,6 +97,107 @@ void Samples::start() {
                                        wake();
                                      }
                                    });
+}
+
+namespace {
+
+constexpr int kFrames = 12;
+constexpr double kFrameMs = 70;
+
+/// The scene with a motion: its own, or one from the rest shape to the pose. None if it has no
+/// pose that differs from the rest shape.
+std::optional<Scene> scene_in_motion(const Scene& scene) {
+  if (has_keyframes(scene)) return scene;
+  Deformation deformation = scene.deformation();
+  const Pose rest = whole_pose_of(at_rest(deformation)), pose = whole_pose_of(deformation);
+  if (rest == pose) return {};
+  deformation.keyframes = {Keyframe{0, rest}, Keyframe{1, pose}};
+  return with_deformation(scene, std::move(deformation));
+}
+
+void draw_frames(const Path& file, Job::Progress& progress,
+                 const std::function<void(Image)>& take) {
+  const LoadedScene loaded = load_scene(file);
+  const std::optional<Scene> scene = scene_in_motion(loaded.scene);
+  if (!scene) return;
+  PictureMaker maker(*scene, loaded.image(), loaded.pictures);
+  PictureOptions options;
+  options.region = maker.motion_region([&] { return !progress.cancelled(); });
+  if (!options.region) return;
+  options.scale =
+      kThumbnail / std::max({options.region->width(), options.region->height(), 1.0});
+  const double length = length_of(*scene);
+  for (int i = 0; i < kFrames && !progress.cancelled(); ++i) {
+    options.time = length * i / (kFrames - 1);
+    take(maker.picture(options).image);
+  }
+}
+
+}  // namespace
+
+void Samples::take_frames() {
+  if (!playing_ || !drawn_frames_) return;
+  std::vector<std::pair<size_t, Image>> ready;
+  {
+    const std::lock_guard lock(drawn_frames_->mutex);
+    ready.swap(drawn_frames_->images);
+  }
+  Motion& motion = motions_[*playing_];
+  for (const auto& [sample, image] : ready)
+    if (sample == *playing_)
+      motion.frames.emplace_back(image.width, image.height, image.pixels.data());
+  if (drawing_motion_ && drawing_motion_->ended()) {
+    motion.complete = true;
+    drawing_motion_.reset();
+  }
+}
+
+void Samples::start_motion(size_t sample) {
+  drawing_motion_.reset();  // cancels the drawing of another sample's motion
+  motions_[sample] = {};
+  drawn_frames_ = std::make_shared<DrawnThumbnails>();
+  drawing_motion_ = std::make_unique<Job>(
+      "Drawing a motion",
+      [sample, file = samples_[sample].scene, drawn = drawn_frames_,
+       wake = wake_](Job::Progress& progress) {
+        draw_frames(file, progress, [&](Image image) {
+          {
+            const std::lock_guard lock(drawn->mutex);
+            drawn->images.emplace_back(sample, std::move(image));
+          }
+          wake();
+        });
+      },
+      wake_);
+}
+
+void Samples::play(std::optional<size_t> sample) {
+  take_frames();
+  if (sample != playing_) {
+    if (drawing_motion_) drawing_motion_->cancel();
+    playing_ = sample;
+    since_ms_ = now_ms();
+    if (sample && !motions_[*sample].complete) start_motion(*sample);
+  }
+  if (playing_ && motions_[*playing_].frames.size() > 1) wake_();
+}
+
+std::optional<size_t> Samples::frame(size_t sample) const {
+  const auto motion = motions_.find(sample);
+  if (playing_ != sample || motion == motions_.end() || motion->second.frames.size() < 2) return {};
+  const size_t last = motion->second.frames.size() - 1;
+  const auto step = static_cast<size_t>((now_ms() - since_ms_) / kFrameMs) % (2 * last);
+  return step <= last ? step : 2 * last - step;
+}
+
+const Texture* Samples::picture(size_t sample) const {
+  if (const auto number = frame(sample)) return &motions_.at(sample).frames[*number];
+  return samples_[sample].thumbnail.id() ? &samples_[sample].thumbnail : nullptr;
+}
+
+float Samples::progress(size_t sample) const {
+  const auto number = frame(sample);
+  return number ? static_cast<float>(*number) / static_cast<float>(kFrames - 1) : -1;
 }
 
 }  // namespace holomorph

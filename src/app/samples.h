@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,13 @@ class Samples {
   /// The samples, with the thumbnails drawn so far. Starts drawing the missing thumbnails. Needs a
   /// current OpenGL context.
   const std::vector<Sample>& shown();
+  /// The picture to show for a sample now: a frame of its motion, its thumbnail, or null.
+  const Texture* picture(size_t sample) const;
+  /// How far a sample's motion has been played, 0 to 1; -1 if it does not play.
+  float progress(size_t sample) const;
+  /// Plays the motion of a sample from its rest shape to its pose and back, and stops that of all
+  /// others. The first time, another thread draws the frames. Call this in every frame.
+  void play(std::optional<size_t> sample);
   /// Stops drawing after the current thumbnail. The next call of shown() resumes it.
   void pause() {
     if (drawing_) drawing_->cancel();
@@ -40,6 +49,15 @@ class Samples {
     std::vector<std::pair<size_t, Image>> images;
   };
   void start();
+  void start_motion(size_t sample);
+  void take_frames();
+  std::optional<size_t> frame(size_t sample) const;
+
+  /// The frames of one sample's motion that are drawn so far.
+  struct Motion {
+    std::vector<Texture> frames;
+    bool complete = false;
+  };
 
   std::function<void()> wake_;
   bool listed_ = false;
@@ -47,6 +65,11 @@ class Samples {
   std::vector<char> done_;  ///< for each sample: whether drawing it has succeeded or failed
   std::shared_ptr<DrawnThumbnails> drawn_;
   std::unique_ptr<Job> drawing_;
+  std::map<size_t, Motion> motions_;
+  std::shared_ptr<DrawnThumbnails> drawn_frames_;  ///< those of `playing_`
+  std::unique_ptr<Job> drawing_motion_;
+  std::optional<size_t> playing_;
+  double since_ms_ = 0;  ///< when the pointer arrived
 };
 
 }  // namespace holomorph

@@ -1,14 +1,24 @@
 // The state is one small, flat JSON object.
 #include "app/state_file.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/look/items.h"
 #include "core/error.h"
 #include "scene/report.h"
 #include "system/new_file.h"
 
 namespace holomorph {
 namespace {
+
+/// The boxes of the named items in window px: left, top, right, bottom.
+nlohmann::ordered_json boxes_of_items() {
+  nlohmann::ordered_json boxes = nlohmann::ordered_json::object();
+  for (const auto& [name, box] : item_boxes())
+    boxes[name] = {std::lround(box.x), std::lround(box.y), std::lround(box.z), std::lround(box.w)};
+  return boxes;
+}
 
 nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& parts) {
   static constexpr const char* kTools[] = {"select",  "pen",   "pin",  "stroke",
@@ -76,6 +86,8 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"taken", parts.taken},
       {"slowest_ms", parts.slowest_ms},
       {"slowest_work_ms", parts.slowest_work_ms},
+      {"moving", parts.moving},
+      {"items", boxes_of_items()},
   };
 }
 

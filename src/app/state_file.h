@@ -23,6 +23,7 @@ struct PartsState {
   Theme theme = Theme::dark;
   double scale = 1;        ///< scale of the interface
   bool exporting = false;  ///< a job, such as an export, is running
+  bool moving = false;     ///< a fade or a switch of the interface is moving
 };
 
 class StateFile {

@@ -12,7 +12,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "app/theme.h"
+#include "app/look/items.h"
+#include "app/look/theme.h"
 #include "core/error.h"
 #include "render/renderer.h"
 
@@ -81,7 +82,7 @@ bool has_display() {
   return false;
 }
 
-Window::Window(int width, int height, double ui_scale, Theme theme) {
+Window::Window(int width, int height, double ui_scale, Theme theme, bool reduce_motion) {
   std::string reason = "unknown reason";
   glfwSetErrorCallback(nullptr);
   if (!glfwInit()) throw Error(ErrorKind::failed, "cannot open a window: there is no display");
@@ -155,9 +156,10 @@ Window::Window(int width, int height, double ui_scale, Theme theme) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().MouseDoubleClickTime = 0.45f;
+  ImGui::GetIO().ConfigDragClickToInputText = true;
   ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  set_style(ui_scale, theme);
+  set_style(ui_scale, theme, reduce_motion);
 }
 
 Window::~Window() {
@@ -168,15 +170,17 @@ Window::~Window() {
   glfwTerminate();
 }
 
-void Window::set_style(double ui_scale, Theme theme) {
+void Window::set_style(double ui_scale, Theme theme, bool reduce_motion) {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
   wanted_scale_ = ui_scale;
   scale_ = ui_scale > 0 ? ui_scale : std::clamp<double>(std::max(x, y), 0.75, 4.0);
   theme_ = theme;
-  apply_theme(scale_, theme);
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // the next line rebuilds it from the new fonts
-  ImGui_ImplOpenGL3_CreateFontsTexture();
+  reduce_motion_ = reduce_motion;
+  if (apply_theme(scale_, theme, reduce_motion)) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();  // the next line rebuilds it from the new fonts
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
   wake();
 }
 
@@ -197,7 +201,7 @@ void Window::wake() {
 }
 
 void Window::begin_frame(bool navigates) {
-  if (std::exchange(moved_display_, false)) set_style(wanted_scale_, theme_);
+  if (std::exchange(moved_display_, false)) set_style(wanted_scale_, theme_, reduce_motion_);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   pump_events();
@@ -214,6 +218,8 @@ void Window::begin_frame(bool navigates) {
   if (navigates && enter_activates_) io.NavInputs[ImGuiNavInput_Activate] = 1;
   io.KeyAlt = io.KeyAlt || alt_;
   ImGui::NewFrame();
+  advance_theme();
+  forget_item_boxes();
 }
 
 void Window::end_frame() {

@@ -24,7 +24,7 @@ struct KeyPress {
 /// if there is no display or no OpenGL 3.3.
 class Window {
  public:
-  Window(int width, int height, double ui_scale, Theme theme);
+  Window(int width, int height, double ui_scale, Theme theme, bool reduce_motion);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -43,7 +43,7 @@ class Window {
   void end_frame();
 
   /// Sets fonts and sizes for a scale (0: the display's scale) and the colors of a theme.
-  void set_style(double ui_scale, Theme theme);
+  void set_style(double ui_scale, Theme theme, bool reduce_motion);
   double scale() const { return scale_; }
   Theme theme() const { return theme_; }
 
@@ -87,6 +87,7 @@ class Window {
   std::atomic<bool> woken_{false};
   int owed_frames_ = 3, taken_ = 0;
   double scale_ = 1, wanted_scale_ = 0;
+  bool reduce_motion_ = false;
   Theme theme_ = Theme::dark;
   bool alt_ = false, close_ = false, moved_display_ = false;
   bool enter_activates_ = false;         ///< Enter is held and was pressed outside a text field

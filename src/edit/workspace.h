@@ -74,6 +74,7 @@ struct ToolSettings {
   DragOptions drag;
   bool snaps = false;        ///< whether drags stop where handles line up
   double brush_radius = 60;  ///< plane units
+  double brush_strength = 0.5;  ///< change of the stiffness per dab, in powers of ten
   AutoCageOptions auto_cage = {};
 };
 

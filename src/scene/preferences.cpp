@@ -94,6 +94,11 @@ Preferences preferences_of_json(const std::string& text) {
   preferences.recent = paths_in(json, "recent", kMostRecent);
   preferences.trusted = paths_in(json, "trusted", kMostTrusted);
   preferences.keys = member(json, "keys", KeyNames{});
+  preferences.reduce_motion = member(json, "reduce_motion", false);
+  constexpr size_t kMostSections = 20;
+  for (const auto& [title, open] : member(json, "sections", std::map<std::string, bool>{}))
+    if (preferences.sections.size() < kMostSections && title.size() < 64)
+      preferences.sections[title] = open;
   return preferences;
 }
 
@@ -110,6 +115,8 @@ void save_preferences(const Preferences& preferences) {
   json["theme"] = kThemes[static_cast<size_t>(preferences.theme)];
   json["native_dialogs"] = preferences.native_dialogs;
   json["hints"] = preferences.hints;
+  json["reduce_motion"] = preferences.reduce_motion;
+  json["sections"] = preferences.sections;
   json["keys"] = preferences.keys;
   json["ui_scale"] = preferences.ui_scale;
   json["recent"] = nlohmann::ordered_json::array();

@@ -19,6 +19,9 @@ struct Preferences {
   double ui_scale = 0;         ///< 0: the scale of the display
   bool native_dialogs = true;  ///< use the desktop's file dialogs, if available
   bool hints = true;           ///< show hints for the first steps
+  bool reduce_motion = false;  ///< no fades and no moving previews
+  /// Which sections of the inspector are open, by title. Others have their usual state.
+  std::map<std::string, bool> sections = {};
   KeyNames keys;               ///< only actions whose keys differ from the defaults
   std::vector<Path> recent;
   std::vector<Path> trusted = {};  ///< any scene may use the files in these folders

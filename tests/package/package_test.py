@@ -35,10 +35,10 @@ class Package(unittest.TestCase):
 
     def test_it_names_what_it_needs(self):
         needs = self.field("holomorph", "Depends")
-        for package in ("libglfw3", "libopenblas0", "fonts-roboto-unhinted", "fonts-font-awesome", "libwebp7"):
+        for package in ("libglfw3", "libopenblas0", "fonts-roboto-unhinted", "libwebp7"):
             self.assertIn(package, needs)
         # The program opens each font by its path, so its dependencies must contain the fonts.
-        for font, package in (("Roboto-Regular.ttf", "fonts-roboto-unhinted"), ("fontawesome-webfont.ttf", "fonts-font-awesome")):
+        for font, package in (("Roboto-Regular.ttf", "fonts-roboto-unhinted"), ("Roboto-Medium.ttf", "fonts-roboto-unhinted")):
             files = subprocess.run(["dpkg", "-L", package], check=True, capture_output=True, text=True).stdout
             self.assertIn(font, files)
         self.assertNotIn("usr/include", subprocess.run(["dpkg-deb", "-c", self.packages["holomorph"]], check=True,

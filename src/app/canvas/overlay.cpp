@@ -355,6 +355,13 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   }
 }
 
+void draw_proposed_cage(const Workspace& workspace, const Cage& cage, const OverlayStyle& style) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  draw_loops(workspace, outline_of(cage), [&](const std::vector<ImVec2>& line) {
+    draw_line(list, line, true, style.colors.pose, style);
+  });
+}
+
 void draw_marker(const Workspace& workspace, Complex where, const OverlayStyle& style) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImVec2 at = px(workspace, where);

@@ -1,7 +1,7 @@
 // The overlay of the canvas: cage, pins and gestures.
 #pragma once
 
-#include "app/theme.h"
+#include "app/look/theme.h"
 #include "edit/tools/tool.h"
 
 namespace holomorph {
@@ -17,6 +17,9 @@ ImVec2 px(const Workspace& workspace, Complex z);
 /// Draws the cage and pins of the current mode, and the tool's gesture, into ImGui's background.
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style);
+
+/// Draws the outline of a cage that is only proposed.
+void draw_proposed_cage(const Workspace& workspace, const Cage& cage, const OverlayStyle& style);
 
 /// Marks the point that a message is about.
 void draw_marker(const Workspace& workspace, Complex where, const OverlayStyle& style);

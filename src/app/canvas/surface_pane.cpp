@@ -4,7 +4,9 @@
 
 #include <imgui.h>
 
+#include "app/look/controls.h"
 #include "app/panels/panels.h"
+#include "edit/actions/icons.h"
 #include "core/error.h"
 #include "core/mesh/flatten.h"
 #include "scene/formats/outline_import.h"
@@ -112,7 +114,7 @@ void SurfacePane::follow(const Workspace& workspace) {
 void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle& style) {
   const Viewport& view = workspace.display.viewport;
   const float s = static_cast<float>(style.scale);
-  const PanelSizes sizes = PanelSizes::at(style.scale);
+  const PanelSizes sizes = PanelSizes::now();
   const float left = static_cast<float>(view.left + view.width),
               right = ImGui::GetIO().DisplaySize.x - static_cast<float>(sizes.inspector);
   ImGui::SetNextWindowPos({left, static_cast<float>(view.top)});
@@ -147,7 +149,7 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   }
   ImGui::SameLine(right);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
-  if (ImGui::Button("\uf00d", {button, 0})) run("view.surface", workspace);
+  if (icon_button("close", icon_named("close"), "Close this view")) run("view.surface", workspace);
   ImGui::PopStyleVar();
   tooltip("Close. View > Surface in space opens it again.");
   if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);
@@ -161,13 +163,13 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
 }
 
 void SurfacePane::choose_flattening(Workspace& workspace, float width) {
-  ImGui::SetNextItemWidth(width);
-  if (begin_combo("##flattening", kFlattenings[static_cast<size_t>(shown_->flattening)])) {
+  if (begin_dropdown("##flattening", kFlattenings[static_cast<size_t>(shown_->flattening)],
+                     width)) {
     for (const Flattening how : {Flattening::lscm, Flattening::circle})
-      if (ImGui::Selectable(kFlattenings[static_cast<size_t>(how)], how == shown_->flattening) &&
+      if (dropdown_row(kFlattenings[static_cast<size_t>(how)], how == shown_->flattening) &&
           how != shown_->flattening)
         fit_to_outline(workspace, "Flatten surface", how);
-    ImGui::EndCombo();
+    end_dropdown();
   }
   tooltip("How to flatten the surface: with a free boundary, or onto a circle");
 }

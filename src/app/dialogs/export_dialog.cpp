@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/look/controls.h"
 #include "app/panels/panels.h"
 #include "edit/content.h"
 #include "system/new_file.h"

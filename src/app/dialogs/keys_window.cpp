@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/look/controls.h"
 #include "app/panels/panels.h"
+#include "edit/actions/icons.h"
 #include "system/new_file.h"
 #include "system/text.h"
 
@@ -108,7 +110,7 @@ void KeysWindow::draw_row(const Action& action, float s) {
   }
   if (workspace_.actions.has_own_keys(action)) {
     ImGui::SameLine(0, 4 * s);
-    if (ImGui::Button("\uf0e2", {30 * s, 0})) {
+    if (icon_button("reset", icon_named("reset"), "Restore the default keys")) {
       stop_waiting();
       report_lost_keys(workspace_.actions.reset_keys(action.id));
     }

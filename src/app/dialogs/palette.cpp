@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/look/controls.h"
+#include "edit/actions/icons.h"
 #include "edit/edits/edits.h"
+#include "edit/edits/method_edits.h"
 #include "system/text.h"
 // Must follow imgui.h, because it does not include that header itself.
 #include <imgui_stdlib.h>
@@ -60,7 +63,7 @@ std::vector<Row> rows_of(Workspace& workspace, Preferences& preferences, PanelAn
   for (const Action& action : workspace.actions.rows())
     if (action.run)
       rows.push_back({action.label, action.keys.empty() ? "" : text_of(action.keys[0]),
-                      action.id + " " + action.menu + " " + action.hint, action.enabled(workspace),
+                      action.id + " " + action.hint, action.enabled(workspace),
                       action.checked && action.checked(workspace),
                       [&, id = action.id] { run(id, workspace); }});
   add_method_rows(workspace, rows);
@@ -112,7 +115,7 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
     const bool chosen = static_cast<int>(i) == chosen_;
     ImGui::BeginDisabled(!row.enabled);
     ImGui::PushStyleColor(ImGuiCol_Text, row.checked ? ImGui::GetColorU32(ImGuiCol_Text) : 0);
-    ImGui::TextUnformatted("\uf00c");  // a check mark, invisible if the row is not checked
+    ImGui::TextUnformatted(icon_named("check"));  // a check mark, invisible if the row is not checked
     ImGui::PopStyleColor();
     ImGui::SameLine(24 * s);
     if (ImGui::Selectable((row.label + "###" + row.label).c_str(), chosen)) run = &row;

@@ -1,6 +1,7 @@
 // A worker thread fills the rows. The window shows those that are ready.
 #include "app/panels/comparison_panel.h"
 
+#include "app/look/items.h"
 #include "app/panels/panels.h"
 #include "core/compared/isometric_comparison.h"
 #include "core/mesh/mesher.h"

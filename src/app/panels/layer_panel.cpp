@@ -1,55 +1,38 @@
 // The panel holds the name that is being typed. The scene changes only when typing ends.
 #include "app/panels/layer_panel.h"
 
+#define IMGUI_DEFINE_MATH_OPERATORS
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
 #include <utility>
 
+#include "app/look/controls.h"
 #include "app/panels/panels.h"
-// Must follow imgui.h, because it does not include that header itself.
-#include <imgui_stdlib.h>
+#include "edit/actions/icons.h"
+#include "edit/edits/method_edits.h"
 
 namespace holomorph {
 namespace {
 
-/// Glyphs of Font Awesome 4.
-constexpr const char *kShown = "\uf06e", *kHidden = "\uf070", *kLocked = "\uf023",
-                     *kUnlocked = "\uf09c";
+constexpr size_t kMostRows = 5;  ///< more layers scroll
 
-/// A small button with one of two icons. Returns whether it was pressed.
-bool toggle(const char* id, bool on, const char* on_face, const char* off_face, const char* tip,
-            float width) {
-  if (!on) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
-  const bool pressed = ImGui::Button((std::string(on ? on_face : off_face) + "###" + id).c_str(),
-                                     {width, ImGui::GetFrameHeight()});
-  ImGui::PopStyleColor(on ? 1 : 2);
-  tooltip(tip);
-  return pressed;
+std::string counted(size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-void background_row(Workspace& workspace) {
-  static constexpr const char* kIds[] = {"background.transparent", "background.color",
-                                         "background.original"};
-  static constexpr const char* kNames[] = {"Transparent", "Color", "Original picture"};
-  Scene scene = workspace.document.scene();
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
-  if (begin_combo("Background", kNames[static_cast<int>(scene.background.fill)])) {
-    for (int i = 0; i < 3; ++i)
-      if (const Action& action = workspace.actions.named(kIds[i]);
-          ImGui::Selectable(kNames[i], action.checked(workspace)))
-        run(action, workspace);
-    ImGui::EndCombo();
-  }
-  tooltip("What is shown and exported where the picture is transparent or has moved away");
-  if (scene.background.fill != Background::Fill::color) return;
-  float color[3];
-  for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(scene.background.color[k]) / 255;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.75f);
-  if (ImGui::ColorEdit3("##color", color, ImGuiColorEditFlags_DisplayHex)) {
-    for (size_t k = 0; k < 3; ++k)
-      scene.background.color[k] =
-          static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[k], 0.0f, 1.0f)));
-    workspace.commit_or_amend_layers("Background color", scene);
-  }
+/// What a row says about its layer, such as "Puppet, 10 pins".
+std::string summary_of(const Layer& layer) {
+  const Deformation& deformation = layer.deformation;
+  if (!deformation.has_cage()) return "Not bent";
+  const Method& method = chosen_method(deformation);
+  std::string text = method.label;
+  if (method.uses_pins && !deformation.pins.empty())
+    text += ", " + counted(deformation.pins.size(), "pin");
+  if (method.uses_strokes && !deformation.strokes.empty())
+    text += ", " + counted(deformation.strokes.size(), "stroke");
+  return text;
 }
 
 }  // namespace
@@ -60,10 +43,9 @@ void LayerPanel::rename(const Scene& scene) {
   focus_field_ = true;
 }
 
-void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
-  ImGui::SetNextItemWidth(-1);
+void LayerPanel::draw_name(Workspace& workspace, size_t layer, float width) {
   if (std::exchange(focus_field_, false)) ImGui::SetKeyboardFocusHere();
-  ImGui::InputText("##name", &name_, ImGuiInputTextFlags_AutoSelectAll);
+  text_field("##name", name_, "", width, ImGuiInputTextFlags_AutoSelectAll);
   if (!ImGui::IsItemDeactivated()) return;
   const bool cancelled = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
   renamed_id_ = 0;
@@ -74,7 +56,8 @@ void LayerPanel::draw_name(Workspace& workspace, size_t layer) {
   workspace.commit_layers("Rename layer", with_layer_at(scene, layer, state));
 }
 
-void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
+void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbnails) {
+  const ThemeColors& c = theme_colors();
   const Scene& scene = workspace.document.scene();
   const SharedLayer shared = scene.layers[layer];  // a copy, because commits replace the scene
   const Layer& state = *shared;
@@ -84,55 +67,89 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, float s) {
     changed.*flag = !(state.*flag);
     workspace.commit_layers(label, with_layer_at(workspace.document.scene(), layer, changed));
   };
-  if (toggle("shown", state.visible, kShown, kHidden,
-             state.visible ? "Visible. Click to hide." : "Hidden. Click to show.", 30 * s)) {
-    toggle_flag(&Layer::visible, state.visible ? "Hide layer" : "Show layer");
+  const bool edited = layer == scene.edited, renames = renamed_id_ == state.id;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = px(48), side = px(36),
+              small = px(24);
+  ImGui::SetItemAllowOverlap();
+  const bool clicked = ImGui::InvisibleButton("row", {width, height});
+  const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem |
+                                            ImGuiHoveredFlags_RectOnly) &&
+                       ImGui::IsWindowHovered();
+  const bool double_clicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
+  ImGui::SetItemAllowOverlap();
+  name_item("Layer: " + title_of_layer(scene, layer));
+  tooltip(edited ? "Double-click to rename." : "Click to edit this layer.");
+  draw_focus_ring(px(6));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (edited || hovered)
+    list.AddRectFilled(at, at + ImVec2(width, height), faded(edited ? c.accent_tint : c.hover),
+                       px(6));
+  if (edited && has_high_contrast())
+    list.AddRect(at, at + ImVec2(width, height), faded(c.accent), px(6), 0, px(2));
+  const float alpha = state.visible ? 1 : 0.4f;
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * alpha);
+  draw_thumbnail(list, thumbnails.of_picture(workspace.document.pictures().shared(state)),
+                 at + ImVec2(px(8), (height - side) / 2), side, px(4));
+  ImGui::PopStyleVar();
+  const float left = px(8) + side + px(10), buttons = 2 * small + px(8);
+  const float room = width - left - buttons;
+  if (!renames) {
+    const ImU32 ink = state.visible ? c.text : c.muted;
+    draw_text(list, Type::body, at + ImVec2(left, px(6)), ink,
+              shortened_text(title_of_layer(scene, layer), room));
+    const ScopedFont small_font(Type::caption);
+    draw_text(list, Type::caption, at + ImVec2(left, px(26)), c.muted,
+              shortened_text(summary_of(state), room));
   }
-  ImGui::SameLine(0, 0);
-  if (toggle("locked", state.locked, kLocked, kUnlocked,
-             state.locked ? "Locked. Click to unlock." : "Unlocked. Click to prevent edits.",
-             30 * s)) {
+  // The states that differ from the usual ones are always shown, the others on hover.
+  const auto flag_button = [&](float x, const char* name, const char* icon, const char* tip,
+                               bool shows) {
+    ImGui::SetCursorScreenPos(at + ImVec2(x, (height - small) / 2));
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * (shows ? 1.0f : 0.0f));
+    const bool pressed = icon_button(name, icon, tip, false, small, Type::caption);
+    ImGui::PopStyleVar();
+    return pressed;
+  };
+  const float lock = width - buttons, eye = width - small - px(4);
+  if (flag_button(lock, "lock", state.locked ? icon_named("lock") : icon_named("unlock"),
+                  state.locked ? "Locked. Click to unlock." : "Click to prevent edits.",
+                  state.locked || hovered || edited))
     toggle_flag(&Layer::locked, state.locked ? "Unlock layer" : "Lock layer");
+  else if (flag_button(eye, "shown", state.visible ? icon_named("eye") : icon_named("eye-off"),
+                       state.visible ? "Visible. Click to hide." : "Hidden. Click to show.", true))
+    toggle_flag(&Layer::visible, state.visible ? "Hide layer" : "Show layer");
+  else if (clicked)
+    workspace.choose_layer(layer);
+  if (double_clicked && workspace.document.scene().edited == layer)
+    rename(workspace.document.scene());
+  if (renames) {
+    ImGui::SetCursorScreenPos(at + ImVec2(left - px(4), (height - px(28)) / 2));
+    draw_name(workspace, layer, room);
   }
-  ImGui::SameLine(0, 8 * s);
-  if (renamed_id_ == state.id) {
-    draw_name(workspace, layer);
-  } else {
-    const std::string title = title_of_layer(workspace.document.scene(), layer);
-    const bool edited = layer == workspace.document.scene().edited;
-    if (text_row(0, title, edited, {0, ImGui::GetTextLineHeight()},
-                 ImGuiSelectableFlags_AllowDoubleClick)) {
-      workspace.choose_layer(layer);
-      if (ImGui::IsMouseDoubleClicked(0)) rename(workspace.document.scene());
-    }
-    tooltip(edited ? "Current layer. Double-click to rename."
-                   : "Click to edit this layer. Double-click to rename.");
-  }
+  ImGui::SetCursorScreenPos(at + ImVec2(0, height + px(2)));
+  ImGui::Dummy({0, 0});
   ImGui::PopID();
 }
 
-void LayerPanel::draw(Workspace& workspace, double scale) {
-  const float s = static_cast<float>(scale);
+void LayerPanel::draw(Workspace& workspace, Thumbnails& thumbnails) {
   const size_t count = workspace.document.scene().layers.size();
-  // Show at most five rows, to leave room for the other sections.
+  const float bleed = px(8);  // rows reach beyond the column of text
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() - bleed);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
-  begin_part("rows",
-             {0, ImGui::GetFrameHeight() * static_cast<float>(std::clamp<size_t>(count, 1, 5))});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  begin_part("rows", {ImGui::GetContentRegionAvail().x + bleed,
+                      px(50) * static_cast<float>(std::clamp<size_t>(count, 1, kMostRows))});
   for (size_t i = workspace.document.scene().layers.size(); i-- > 0;)
-    if (i < workspace.document.scene().layers.size()) draw_row(workspace, i, s);
+    if (i < workspace.document.scene().layers.size()) draw_row(workspace, i, thumbnails);
   ImGui::EndChild();
-  ImGui::PopStyleVar();
-  for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down", "layer.delete"}) {
-    const Action& action = workspace.actions.named(id);
-    ImGui::BeginDisabled(!action.enabled(workspace));
-    if (ImGui::Button((std::string(action.icon) + "###" + id).c_str(), {36 * s, 0}))
-      run(action, workspace);
-    ImGui::EndDisabled();
-    tooltip_of(workspace.actions.named(id));
-    ImGui::SameLine(0, 4 * s);
+  ImGui::PopStyleVar(2);
+  for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down"}) {
+    action_icon_button(id, workspace);
+    ImGui::SameLine(0, px(4));
   }
-  ImGui::NewLine();
-  background_row(workspace);
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - px(28));
+  action_icon_button("layer.delete", workspace);
 }
 
 }  // namespace holomorph

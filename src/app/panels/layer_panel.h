@@ -1,6 +1,7 @@
-// The inspector's section with the list of layers and the background.
+// The inspector's section with the list of layers.
 #pragma once
 
+#include "app/thumbnails.h"
 #include "edit/workspace.h"
 
 namespace holomorph {
@@ -13,11 +14,11 @@ class LayerPanel {
   void forget() { renamed_id_ = 0; }
   /// Whether a name is being typed. Its field must then be visible.
   bool is_renaming() const { return renamed_id_ != 0; }
-  void draw(Workspace& workspace, double scale);
+  void draw(Workspace& workspace, Thumbnails& thumbnails);
 
  private:
-  void draw_row(Workspace& workspace, size_t layer, float s);
-  void draw_name(Workspace& workspace, size_t layer);
+  void draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbnails);
+  void draw_name(Workspace& workspace, size_t layer, float width);
 
   int renamed_id_ = 0;  ///< id of the layer whose name is being typed; 0: none
   std::string name_;

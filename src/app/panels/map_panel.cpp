@@ -6,32 +6,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/look/controls.h"
 #include "app/panels/panels.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
 namespace {
 
-void action_button(const char* id, const char* text, Workspace& workspace) {
-  const Action& action = workspace.actions.named(id);
-  ImGui::BeginDisabled(!action.enabled(workspace));
-  if (ImGui::Button(text)) run(action, workspace);
-  ImGui::EndDisabled();
-  tooltip_of(action);
-}
-
 /// Plots the energy against the iteration, counted from 1, on logarithmic axes.
-void plot(const std::vector<double>& energies, int shown, double scale) {
-  const float s = static_cast<float>(scale), height = 84 * s;
+void plot(const std::vector<double>& energies, int shown) {
+  const float height = px(84);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg),
-                     4 * s);
+  list.AddRectFilled(at, {at.x + width, at.y + height}, faded(theme_colors().field), px(4));
   const auto [least, most] = std::ranges::minmax(energies);
   const double floor = std::max(1e-12 * most, 1e-300), low = std::log(std::max(least, floor)),
                span = std::max(std::log(std::max(most, floor)) - low, 1e-9),
                last = std::log(static_cast<double>(energies.size()));
-  const float margin = 8 * s;
+  const float margin = px(8);
   const auto place = [&](size_t i) {
     const double x = std::log(static_cast<double>(i) + 1) / std::max(last, 1e-9),
                  y = (std::log(std::max(energies[i], floor)) - low) / span;
@@ -41,8 +34,8 @@ void plot(const std::vector<double>& energies, int shown, double scale) {
   std::vector<ImVec2> line;
   for (size_t i = 0; i < energies.size(); ++i) line.push_back(place(i));
   list.AddPolyline(line.data(), static_cast<int>(line.size()),
-                   ImGui::GetColorU32(ImGuiCol_PlotLines), 0, 1.8f * s);
-  list.AddCircleFilled(line[static_cast<size_t>(shown)], 4 * s,
+                   ImGui::GetColorU32(ImGuiCol_PlotLines), 0, px(2));
+  list.AddCircleFilled(line[static_cast<size_t>(shown)], px(4),
                        ImGui::GetColorU32(ImGuiCol_PlotHistogram));
   ImGui::Dummy({width, height});
   tooltip(
@@ -50,85 +43,95 @@ void plot(const std::vector<double>& energies, int shown, double scale) {
       "The unit of length is the cage's perimeter divided by 2 pi.");
 }
 
+/// A muted line for those who know the mathematics.
+void details(const std::string& text, const char* tip) {
+  const ScopedFont small(Type::caption);
+  muted_text(text);
+  tooltip(tip);
+}
+
+std::string percent(double value) {
+  return std::to_string(std::lround(100 * value)) + " %";
+}
+
 }  // namespace
 
-void convergence_section(Workspace& workspace, double scale) {
+void convergence_section(Workspace& workspace) {
   const SampledMap& map = workspace.map().map();
   if (map.energies.size() < 2) return;
   const int last = static_cast<int>(map.energies.size()) - 1,
             shown = std::min(map.iterations, last);
-  plot(map.energies, shown, scale);
-  action_button("map.play", workspace.playback.playing ? "\uf04c" : "\uf04b", workspace);
-  ImGui::SameLine();
-  action_button("map.step", "\uf051", workspace);
-  ImGui::SameLine();
-  action_button("map.restart", "\uf049", workspace);
-  ImGui::SameLine();
-  ImGui::Text("Iteration %d of %d", shown, last);
-  ImGui::TextDisabled("Details: energy %.3g", map.energies[static_cast<size_t>(shown)]);
+  plot(map.energies, shown);
+  const auto control = [&](const char* id, const char* icon) {
+    const Action& action = workspace.actions.named(id);
+    ImGui::BeginDisabled(!action.enabled(workspace));
+    if (icon_button(id, icon, "")) run(action, workspace);
+    ImGui::EndDisabled();
+    tooltip_of(workspace.actions.named(id));
+    ImGui::SameLine(0, px(4));
+  };
+  control("map.play", workspace.playback.playing ? icon_named("pause") : icon_named("play"));
+  control("map.step", icon_named("next"));
+  control("map.restart", icon_named("to-start"));
+  ImGui::AlignTextToFramePadding();
+  char text[80];
+  std::snprintf(text, sizeof text, "Iteration %d of %d, energy %.3g", shown, last,
+                map.energies[static_cast<size_t>(shown)]);
+  caption(text);
 }
 
-void injectivity_section(Workspace& workspace, Theme theme) {
-  if (!workspace.map().has_map()) return;
+StateText fold_state(const Workspace& workspace) {
+  const ThemeColors& c = theme_colors();
+  if (!workspace.map().has_map()) return {};
   const Injectivity& found = workspace.map().injectivity();
-  const ImVec4 warning = ImGui::ColorConvertU32ToFloat4(canvas_colors(theme).warning);
-  const auto show = [&](Complex where, const char* text) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float end = ImGui::GetItemRectMax().x + style.ItemSpacing.x +
-                      ImGui::CalcTextSize("Show me").x + 2 * style.FramePadding.x;
-    if (end < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
-    ImGui::PushID(text);
-    if (ImGui::SmallButton("Show me")) {
-      workspace.mode = EditMode::pose;
-      workspace.display.viewport.center = where;
-      workspace.messages.toasts.push_back({text, true, where});
-    }
-    ImGui::PopID();
-  };
-  const double turns = found.turning_number;
-  const int extra_turns = static_cast<int>(std::lround(turns)) - 1;
-  if (!found.folds()) {
-    ImGui::Text("\uf00c No folds");
-  } else {
-    ImGui::TextColored(warning, turns < 0 ? "\uf071 Flipped over" : "\uf071 Folds");
-    if (!found.folds_at.empty()) {
-      ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) run("view.fold", workspace);
-      tooltip_of(workspace.actions.named("view.fold"));
-      if (found.folds_at.size() > 1)
-        ImGui::TextColored(warning, "in %d places", static_cast<int>(found.folds_at.size()));
-    }
+  if (found.folds()) {
+    const size_t count = found.folds_at.size();
+    return {found.turning_number < 0 ? "Flipped over"
+            : count > 1              ? std::to_string(count) + " folds"
+                                     : "Folds",
+            c.error};
   }
-  ImGui::TextDisabled("Details: turning number %.0f", turns);
-  tooltip(
-      "How many times the edge of the picture turns: 1 unless the picture "
-      "overlaps itself at a point or is flipped over.");
+  if (found.crossing) return {"Parts overlap", c.warning};
+  return {"No folds", c.success};
+}
+
+void injectivity_section(Workspace& workspace) {
+  const ThemeColors& c = theme_colors();
+  if (!workspace.map().has_map()) return muted_text("There is no map yet.");
+  const Injectivity& found = workspace.map().injectivity();
+  const StateText state = fold_state(workspace);
+  colored_text(state.color, std::string(found.folds() || found.crossing ? icon_named("warning")
+                                                                        : icon_named("check")) +
+                                " " + state.text);
+  if (!found.folds_at.empty() || found.crossing) {
+    ImGui::SameLine();
+    if (small_button("Show me")) run("view.fold", workspace);
+    tooltip_of(workspace.actions.named("view.fold"));
+  }
+  const int extra_turns = static_cast<int>(std::lround(found.turning_number)) - 1;
   if (extra_turns > 0)
-    ImGui::TextColored(warning, "Overlaps itself at %d point%s", extra_turns,
-                       extra_turns == 1 ? "" : "s");
-  if (const auto& proved = workspace.map().map().extremes) {
-    ImGui::TextDisabled("Details: sizes %.0f to %.0f %%, shear %.0f %%", 100 * proved->smallest,
-                        100 * proved->largest, 100 * proved->shear);
-    tooltip(
-        "Proved limits: no length in the picture shrinks or grows more than this, in any "
-        "direction. Shear is 0 % where angles are kept, and 100 % where the picture is flat.");
-  } else {
-    ImGui::TextDisabled("Details: smallest size %.0f %%",
-                        std::round(100 * found.least_stretch) + 0.0);  // no "-0"
-    tooltip(
-        "The size that remains where the picture is compressed most, in the "
-        "direction of the strongest compression. Below 0 %, it is flipped over.");
-  }
-  if (found.crossing) {
-    ImGui::TextDisabled("Parts overlap");
-    show(*found.crossing, "The edge of the picture crosses itself here.");
-  }
+    colored_text(c.warning, "Overlaps itself at " + std::to_string(extra_turns) +
+                                (extra_turns == 1 ? " point" : " points"));
   if (const Points& marked = workspace.map().map().zeros; !marked.empty())
-    ImGui::TextDisabled("Would fold at %d %s (diamonds)", static_cast<int>(marked.size()),
-                        marked.size() == 1 ? "point" : "points");
-  const Action& fold_free = workspace.actions.named("map.fold_free");
-  if (found.folds() && fold_free.enabled(workspace))
-    action_button("map.fold_free", fold_free.label.c_str(), workspace);
+    caption("Would fold at " + std::to_string(marked.size()) +
+            (marked.size() == 1 ? " point (diamond)" : " points (diamonds)"));
+  const Action& prevents = workspace.actions.named("map.fold_free");
+  if (found.folds() && prevents.enabled(workspace) && !prevents.checked(workspace) &&
+      small_button(prevents.label))
+    run(prevents, workspace);
+  if (const auto& proved = workspace.map().map().extremes) {
+    details("Details: sizes " + percent(proved->smallest) + " to " + percent(proved->largest) +
+                ", shear " + percent(proved->shear),
+            "Proved limits: no length in the picture shrinks or grows more than this, in any "
+            "direction. Shear is 0 % where angles are kept, and 100 % where the picture is flat.");
+  } else {
+    details("Details: smallest size " + percent(found.least_stretch + 0.0),
+            "The size that remains where the picture is compressed most, in the "
+            "direction of the strongest compression. Below 0 %, it is flipped over.");
+  }
+  details("Details: turning number " + std::to_string(std::lround(found.turning_number)),
+          "How many times the edge of the picture turns: 1 unless the picture "
+          "overlaps itself at a point or is flipped over.");
 }
 
 }  // namespace holomorph

@@ -1,103 +1,136 @@
 // The left part says what to do or what is wrong. The right part shows figures and is never cut
 // off.
-#include <algorithm>
-#include <cstdio>
+#define IMGUI_DEFINE_MATH_OPERATORS
+#include <imgui.h>
+#include <imgui_internal.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "app/look/controls.h"
+#include "app/panels/map_panel.h"
 #include "app/panels/panels.h"
+#include "edit/actions/icons.h"
 #include "scene/report.h"
 
 namespace holomorph {
 namespace {
 
-/// A green that is readable on the bar of every theme.
-ImVec4 proved_color() {
-  const ImVec4 bar = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
-  return bar.x > 0.5f ? ImVec4(0.05f, 0.45f, 0.15f, 1) : ImVec4(0.45f, 0.85f, 0.5f, 1);
+/// A text in the right part of the bar, drawn from right to left.
+class RightPart {
+ public:
+  RightPart(float right, float top, float height) : x_(right), top_(top), height_(height) {}
+  float left() const { return x_; }
+
+  void text(ImU32 color, const std::string& text) {
+    x_ -= text_size(Type::caption, text).x;
+    draw_text(*ImGui::GetWindowDrawList(), Type::caption,
+              {x_, top_ + (height_ - font(Type::caption)->FontSize) / 2}, color, text);
+  }
+  void gap(float units = 8) { x_ -= px(units); }
+  void line() {
+    gap(10);
+    const float middle = top_ + height_ / 2;
+    ImGui::GetWindowDrawList()->AddLine({x_, middle - px(7)}, {x_, middle + px(7)},
+                                        faded(theme_colors().edge));
+    gap(10);
+  }
+  void action(const char* id, const char* icon, Workspace& workspace) {
+    const float side = px(24);
+    x_ -= side;
+    ImGui::SetCursorScreenPos({x_, std::round(top_ + (height_ - side) / 2)});
+    if (icon_button(id, icon, "", false, side, Type::caption)) run(id, workspace);
+    tooltip_of(workspace.actions.named(id));
+  }
+
+ private:
+  float x_, top_, height_;
+};
+
+std::string pixels(Complex z) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.0f, %.0f px", z.real(), z.imag());
+  return text;
+}
+
+void draw_figures(RightPart& right, Workspace& workspace, const StatusLine& status) {
+  const ThemeColors& c = theme_colors();
+  right.gap(4);
+  right.action("view.fit", icon_named("fit"), workspace);
+  right.action("view.zoom_in", icon_named("add"), workspace);
+  right.gap(2);
+  char zoom[24];
+  std::snprintf(zoom, sizeof zoom, "%.0f %%", 100 * workspace.display.viewport.zoom);
+  right.text(c.text, zoom);
+  right.gap(2);
+  right.action("view.zoom_out", icon_named("minus"), workspace);
+  if (status.cursor) {
+    right.line();
+    if (status.cursor_at_rest && std::abs(*status.cursor_at_rest - *status.cursor) >= 0.5) {
+      right.text(c.muted, " from " + pixels(*status.cursor_at_rest));
+    }
+    right.text(c.muted, pixels(*status.cursor));
+  }
+  if (status.draft) {
+    right.line();
+    right.text(c.muted, "Draft");
+  } else if (const StateText state = fold_state(workspace); !state.text.empty()) {
+    right.line();
+    const bool good = state.color == c.success;
+    right.text(state.color, state.text);
+    right.gap(4);
+    right.text(state.color, good ? icon_named("check") : icon_named("warning"));
+  }
 }
 
 }  // namespace
 
-void draw_status_bar(Workspace& workspace, const StatusLine& status, double scale) {
-  const PanelSizes sizes = PanelSizes::at(scale);
+void draw_status_bar(Workspace& workspace, const StatusLine& status, const PanelSizes& sizes) {
+  const ThemeColors& c = theme_colors();
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float s = static_cast<float>(scale), height = static_cast<float>(sizes.status);
-  ImGui::SetNextWindowPos({0, display.y - height});
-  ImGui::SetNextWindowSize({display.x, height});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * s, 4 * s});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
-  ImGui::Begin("Status", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
-  ImGui::AlignTextToFramePadding();
-  const LiveMap& map = workspace.map();
-  std::string hint, note;
-  ImVec4 note_color;
-  if (map.error()) {
-    ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "\uf071 %s", map.error()->what());
-    if (const auto where = map.error()->where()) {
-      ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) workspace.display.viewport.center = *where;
-    }
-    const Deformation& deformation = workspace.shown.deformation();
-    if (!deformation.rest.holes.empty() && !method_named(deformation.method).allows_holes) {
-      ImGui::SameLine();
-      if (ImGui::SmallButton("Fill holes")) run("cage.fill", workspace);
-    }
-  } else {
-    hint = status.hint;
-    const auto state = map.map().status;
-    if (map.has_map() && state == SampledMap::Status::certified) {
-      note = "\uf00c " + map.map().note;
-      note_color = proved_color();
-    } else if (map.has_map() && state == SampledMap::Status::infeasible) {
-      note = "\uf071 " + map.map().note;
-      note_color = {1.0f, 0.45f, 0.4f, 1};
-    } else if (!map.injectivity().folds_at.empty()) {
-      ImGui::TextColored({1.0f, 0.45f, 0.4f, 1}, "\uf071 The picture folds over itself");
-      ImGui::SameLine();
-      if (ImGui::SmallButton("Show me")) run("view.fold", workspace);
-      ImGui::SameLine();
-    }
-  }
-  char right[240] = "";
-  int used = 0;
-  const auto add = [&](const char* format, auto... values) {
-    used +=
-        std::snprintf(right + used, sizeof right - static_cast<size_t>(used), format, values...);
-    used = std::min(used, static_cast<int>(sizeof right) - 1);
+  const float height = static_cast<float>(sizes.status), top = display.y - height;
+  begin_panel("Status", {0, top}, display, c.chrome, {0, 0}, ImGuiWindowFlags_NoScrollbar);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddLine({0, top}, {display.x, top}, faded(c.line));
+  RightPart right(display.x - px(4), top, height);
+  if (!workspace.document.empty()) draw_figures(right, workspace, status);
+  float x = px(12);
+  const float end = right.left() - px(12), text_top = top + (height - font(Type::caption)->FontSize) / 2;
+  const auto fits = [](const std::string& text, float room) {
+    const ScopedFont small(Type::caption);
+    return fitted_text(text, room);
   };
-  const DragOptions& drag_options = workspace.tools.drag;
-  if (drag_options.soft) add("Soft %.0f px   ", drag_options.reach);
-  if (drag_options.symmetric) add("%s   ", "Symmetry");
-  if (workspace.tools.snaps) add("%s   ", "Snap");
-  if (status.cursor) add("%.0f, %.0f px   ", status.cursor->real(), status.cursor->imag());
-  if (status.cursor_at_rest)
-    add("from %.0f, %.0f px   ", status.cursor_at_rest->real(), status.cursor_at_rest->imag());
-  if (!workspace.document.empty()) add("%.0f %%   ", 100 * workspace.display.viewport.zoom);
-  if (map.has_map()) {
-    add("%s: ", method_named(workspace.shown.deformation().method).label.c_str());
-    const bool closed_form = map.map().status == SampledMap::Status::exact;
-    add("%s%.1f ms%s   ",
-        closed_form ? "" : (std::string(name_of(map.map().status)) + ", ").c_str(),
-        map.pose_milliseconds(), status.by_operator ? " (GPU)" : "");
+  const auto draw_left = [&](ImU32 color, const std::string& text) {
+    const std::string fitted = fits(text, end - x);
+    draw_text(list, Type::caption, {x, text_top}, color, fitted);
+    x += text_size(Type::caption, fitted).x + px(12);
+  };
+  const auto button = [&](const char* label) {
+    ImGui::SetCursorScreenPos({x, std::round(top + (height - px(24)) / 2)});
+    const bool pressed = small_button(label);
+    x = ImGui::GetItemRectMax().x + px(12);
+    return pressed;
+  };
+  const LiveMap& map = workspace.map();
+  if (map.error()) {
+    draw_left(c.error, std::string(icon_named("warning")) + " " + map.error()->what());
+    if (const auto where = map.error()->where(); where && button("Show me"))
+      workspace.display.viewport.center = *where;
+    const Deformation& deformation = workspace.shown.deformation();
+    if (!deformation.rest.holes.empty() && !method_named(deformation.method).allows_holes &&
+        button("Fill holes"))
+      run("cage.fill", workspace);
+  } else {
+    const auto state = map.map().status;
+    if (map.has_map() && state == SampledMap::Status::infeasible)
+      draw_left(c.warning, std::string(icon_named("warning")) + " " + map.map().note);
+    if (x < end) {
+      list.PushClipRect({0, top}, {end, display.y}, true);
+      draw_hint(list, {x, top}, height, c.muted, fits(status.hint, end - x - px(24)));
+      list.PopClipRect();
+    }
   }
-  if (!workspace.document.empty()) add("%s", status.draft ? "draft" : "final");
-  const float width = ImGui::CalcTextSize(right).x;
-  // The left part is cut off before it reaches the figures.
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::PushClipRect(at, {display.x - width - 30 * s, display.y}, true);
-  if (!note.empty()) {
-    const float left = display.x - width - 30 * s - ImGui::GetCursorScreenPos().x;
-    ImGui::TextColored(note_color, "%s", fitted_text(note, left).c_str());
-    ImGui::SameLine();
-  }
-  const float room = display.x - width - 30 * s - ImGui::GetCursorScreenPos().x;
-  ImGui::TextUnformatted(fitted_text(hint, room).c_str());
-  ImGui::PopClipRect();
-  ImGui::SameLine(display.x - width - 14 * s);
-  ImGui::TextDisabled("%s", right);
-  ImGui::End();
-  ImGui::PopStyleColor();
-  ImGui::PopStyleVar(2);
+  end_panel();
 }
 
 }  // namespace holomorph

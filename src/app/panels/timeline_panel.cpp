@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "app/look/controls.h"
 #include "app/panels/panels.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
 namespace {
@@ -31,18 +33,12 @@ void tool_button(const char* id, Workspace& workspace, float size) {
   const Action& action = workspace.actions.named(id);
   const bool on = action.checked && action.checked(workspace), enabled = action.enabled(workspace);
   const bool playing = std::string_view(id) == "time.play" && on;
-  if (on && !playing)
-    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
-  if (std::string_view(id) == "time.auto_key" && on)
-    ImGui::PushStyleColor(ImGuiCol_Text, {0.95f, 0.3f, 0.3f, 1});
   ImGui::BeginDisabled(!enabled);
-  const std::string face = std::string(playing ? "\uf04c" : action.icon) + "###" + id;
-  if (ImGui::Button(face.c_str(), {size, 0})) run(action, workspace);
+  if (icon_button(id, playing ? icon_named("pause") : action.icon, "", on && !playing, size))
+    run(action, workspace);
+  tooltip_of(workspace.actions.named(id));
   ImGui::EndDisabled();
-  if (std::string_view(id) == "time.auto_key" && on) ImGui::PopStyleColor();
-  if (on && !playing) ImGui::PopStyleColor();
-  tooltip_of(action);
-  ImGui::SameLine(0, 3);
+  ImGui::SameLine(0, px(4));
 }
 
 /// Shows the last drawn item's tooltip and continues on the same line. A gesture that starts on the
@@ -265,8 +261,8 @@ void TimelinePanel::drag(Workspace& workspace, double time, float s) {
   workspace.shown.timeline.chosen = true;
 }
 
-void TimelinePanel::draw(Workspace& workspace, double scale) {
-  const PanelSizes sizes = PanelSizes::at(scale);
+void TimelinePanel::draw(Workspace& workspace, const PanelSizes& sizes) {
+  const float scale = px(100) / 100;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float s = static_cast<float>(scale), height = static_cast<float>(sizes.timeline);
   ImGui::SetNextWindowPos(
@@ -275,7 +271,7 @@ void TimelinePanel::draw(Workspace& workspace, double scale) {
       {display.x - static_cast<float>(sizes.toolbar + sizes.inspector), height});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * s, 6 * s});
   ImGui::Begin("Timeline", nullptr, kPanel | ImGuiWindowFlags_NoScrollbar);
-  const float button = 32 * s;
+  const float button = px(28);
   for (const char* id : {"time.previous_key", "time.back", "time.play", "time.forward",
                          "time.next_key", "time.loop"})
     tool_button(id, workspace, button);

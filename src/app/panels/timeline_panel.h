@@ -1,13 +1,14 @@
 // The timeline below the canvas: buttons, a time ruler, and the keyframes on it.
 #pragma once
 
+#include "app/panels/panels.h"
 #include "edit/workspace.h"
 
 namespace holomorph {
 
 class TimelinePanel {
  public:
-  void draw(Workspace& workspace, double scale);
+  void draw(Workspace& workspace, const PanelSizes& sizes);
 
  private:
   enum class Held { nothing, time, key };

@@ -1,14 +1,23 @@
-// Each message is shown in its own small window. The windows are stacked.
+// Each message is shown in its own small window, as wide as its text. The windows are stacked.
 #include "app/panels/toasts.h"
 
+#define IMGUI_DEFINE_MATH_OPERATORS
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
 #include <utility>
 
+#include "app/look/controls.h"
+#include "app/look/surfaces.h"
 #include "core/clock.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
 namespace {
 
-constexpr double kShownMs = 4500, kProblemMs = 9000;
+constexpr double kShownMs = 4500, kProblemMs = 9000, kLeavesMs = 150;
+constexpr double kWidest = 480;
 
 }  // namespace
 
@@ -23,40 +32,40 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
     const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
     shown_.push_back({std::move(toast), until, step});
   }
-  const float s = static_cast<float>(style.scale);
+  const ThemeColors& c = theme_colors();
   const Viewport& view = workspace.display.viewport;
-  const float wrap = static_cast<float>(std::min(620.0 * s, view.width - 40 * s));
-  // Messages are stacked downward from the menu. On the welcome page, whose title is at the top,
-  // they are stacked upward from the status bar.
-  const bool upwards = workspace.document.empty();
-  float y = static_cast<float>(upwards ? view.top + view.height - 6 * style.scale
-                                       : view.top + 6 * style.scale);
-  for (size_t i = 0; i < shown_.size(); ++i) {
+  const float margin = px(16), left = static_cast<float>(view.left) + margin,
+              widest = std::min(px(kWidest), static_cast<float>(view.width) - 2 * margin);
+  // The latest message is the lowest.
+  float y = static_cast<float>(view.top + view.height) - margin;
+  for (size_t i = shown_.size(); i-- > 0;) {
     const Toast& toast = shown_[i].toast;
-    ImGui::SetNextWindowPos({static_cast<float>(view.left + view.width / 2), y}, ImGuiCond_Always,
-                            {0.5f, upwards ? 1.0f : 0.0f});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {14 * s, 8 * s});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * s);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.5f * s);
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, style.colors.panel);
-    ImGui::PushStyleColor(ImGuiCol_Border,
-                          toast.problem ? style.colors.warning : style.colors.accent);
-    ImGui::Begin(("toast" + std::to_string(i)).c_str(), nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                     (toast.where ? 0 : ImGuiWindowFlags_NoInputs));
+    const float remaining = static_cast<float>((shown_[i].until - now_ms()) / kLeavesMs);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(14), px(10)});
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::clamp(remaining, 0.2f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(c.raised));
+    begin_card(("toast " + toast.text).c_str(), {left, y}, {0, 1},
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoNav | (toast.where ? 0 : ImGuiWindowFlags_NoInputs));
+    if (toast.problem) {
+      colored_text(c.error, icon_named("warning"));
+      ImGui::SameLine(0, px(8));
+    }
+    const float wrap = std::min(widest - px(40), text_size(Type::body, toast.text).x + 1);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
-    ImGui::TextUnformatted((toast.problem ? "\uf071  " + toast.text : toast.text).c_str());
+    ImGui::TextUnformatted(toast.text.c_str());
     ImGui::PopTextWrapPos();
     if (toast.where) {
-      if (ImGui::SmallButton("Show me")) workspace.display.viewport.center = *toast.where;
+      ImGui::SameLine(0, px(12));
+      ImGui::SetCursorPosY(ImGui::GetCursorPosY() - px(4));
+      if (small_button("Show me", ButtonKind::flat))
+        workspace.display.viewport.center = *toast.where;
       draw_marker(workspace, *toast.where, style);
     }
-    y += (upwards ? -1 : 1) * (ImGui::GetWindowHeight() + 8 * s);
-    ImGui::End();
-    ImGui::PopStyleColor(2);
-    ImGui::PopStyleVar(3);
+    y -= ImGui::GetWindowHeight() + px(8);
+    end_card();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
   }
 }
 

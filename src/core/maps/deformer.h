@@ -31,6 +31,7 @@ struct ParameterSpec {
   Type type = Type::number;
   double fallback = 0, lowest = 0, highest = 1;
   bool logarithmic = false;
+  bool percent = false;  ///< the interface shows 100 times the value
   struct Condition {
     std::string key;
     double value = 0;
@@ -238,7 +239,9 @@ struct Preset {
 
 /// A row of the table of methods. Rows set fields by name; omitted fields keep their defaults.
 struct Method {
-  std::string id, label, hint;
+  std::string id, label;
+  std::string summary;  ///< what it keeps, in one short sentence or two
+  std::string hint;
   std::vector<ParameterSpec> parameters = {};
   bool uses_pins = false, uses_strokes = false, uses_outline = false, uses_corners = false,
        uses_stiffness = false;

@@ -271,6 +271,7 @@ Method angles_method() {
   return {
       .id = "angles",
       .label = "Angles",
+      .summary = "Follows the angles at its corners. Never folds.",
       .hint =
           "Rotate, open and close corners (A). Edges follow the cage's directions, not its "
           "lengths. "

@@ -222,6 +222,7 @@ Method arap_method() {
   return {
       .id = "arap",
       .label = "As rigid as possible",
+      .summary = "Keeps parts stiff. Pins may leave spikes.",
       .hint =
           "Pins stay where you put them, and everything else keeps its size and shape as far as "
           "possible. Paint stiffness (B) on parts that should change least. Without pins, the cage "

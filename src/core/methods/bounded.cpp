@@ -347,6 +347,7 @@ Method bounded_method(const std::vector<Method>& references, const std::string& 
   return {
       .id = "bounded",
       .label = "No folds",
+      .summary = "Nothing folds. Limits how much anything stretches.",
       .hint =
           "Nothing folds and nothing stretches more than you allow. This is proved for every "
           "frame.",
@@ -355,13 +356,14 @@ Method bounded_method(const std::vector<Method>& references, const std::string& 
                      one_of("space", "Prefer",
                             "What to preserve first if the limits rule out preserving everything",
                             {{"nu", "shape"}, {"psi", "pins"}, {"h", "size"}}),
-                     number("k", "Max shear", "0 keeps all angles; near 1, circles may become flat",
-                            0.7, 0, 0.99),
-                     number("sigma", "Smallest size",
-                            "No length shrinks below this fraction of its original", 0.2, 0.01,
-                            0.99),
-                     by_decades("Sigma", "Max growth", "No length grows by more than this factor",
-                                5, 1.01, 100),
+                     in_percent(number("k", "Max shear",
+                                       "0 % keeps all angles; near 100 %, circles may become flat",
+                                       0.7, 0, 0.99)),
+                     in_percent(number("sigma", "Smallest size",
+                                       "No length shrinks below this part of its original", 0.2,
+                                       0.01, 0.99)),
+                     in_percent(by_decades("Sigma", "Max growth",
+                                           "No length grows beyond this size", 5, 1.01, 100)),
                      used_with(
                          "space", 1,
                          by_decades("pin_weight", "Pin weight",

@@ -41,6 +41,7 @@ Method cage_method() {
   return {
       .id = "cage",
       .label = "Cage",
+      .summary = "Follows its points. Good for shapes you redraw.",
       .hint =
           "Move the cage points; the picture follows and keeps its angles. Pins have no effect.",
       .make = make_cage,

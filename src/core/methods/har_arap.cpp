@@ -242,6 +242,7 @@ Method har_arap_method() {
   return {
       .id = "har_arap",
       .label = "Rigid and smooth",
+      .summary = "Keeps parts stiff, and bends smoothly between them.",
       .hint =
           "As rigid as a smooth map can be, without spikes at the pins. Without pins, the cage "
           "points stay where you put them.",

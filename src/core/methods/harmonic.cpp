@@ -82,6 +82,7 @@ Method harmonic_method() {
   return {
       .id = "harmonic",
       .label = "Harmonic",
+      .summary = "Keeps the cage's edges straight. Angles change.",
       .hint = "The cage's edges stay straight and go exactly where you put them. Angles change.",
       .make = make_harmonic,
   };

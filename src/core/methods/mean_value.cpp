@@ -143,6 +143,7 @@ Method mean_value_method() {
   return {
       .id = "mean_value",
       .label = "Mean value",
+      .summary = "Keeps edges straight. Reacts to distant points, too.",
       .hint =
           "Follows the cage's edges like Harmonic, without preparation. For comparison: it "
           "overshoots beyond corners that point inwards.",

@@ -41,6 +41,12 @@ inline ParameterSpec one_of(std::string key, std::string label, std::string hint
   return spec;
 }
 
+/// Returns `spec`, displayed in percent.
+inline ParameterSpec in_percent(ParameterSpec spec) {
+  spec.percent = true;
+  return spec;
+}
+
 /// Returns `spec`, limited to take effect only while the parameter `key` has this value.
 inline ParameterSpec used_with(std::string key, double value, ParameterSpec spec) {
   spec.used_when = ParameterSpec::Condition{std::move(key), value};

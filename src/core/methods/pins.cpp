@@ -323,6 +323,7 @@ Method pins_method() {
   return {
       .id = "pins",
       .label = "Elastic",
+      .summary = "Keeps angles. Good for soft shapes and faces.",
       .hint = "Drag pins, and the picture follows smoothly. Cage points also work.",
       .parameters =
           {toggle("exact", "Exact",

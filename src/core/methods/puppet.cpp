@@ -284,6 +284,7 @@ Method puppet_method() {
   return {
       .id = "puppet",
       .label = "Puppet",
+      .summary = "Keeps sizes. Good for animals and people.",
       .hint =
           "Pins move parts of the picture. Sizes and shapes are kept as far as possible, and "
           "nothing folds. Paint stiffness (B) on parts that should change least. Without pins, "
@@ -305,15 +306,17 @@ Method puppet_method() {
                   "Keep the distortion within limits everywhere; pins then give way"),
            used_with(
                "limited", 1,
-               number("k", "Max shear", "Near 0, angles are kept; near 1, circles may become flat",
-                      0.7, 0.05, 0.99)),
+               in_percent(number("k", "Max shear",
+                                 "Near 0 %, angles are kept; near 100 %, circles may become flat",
+                                 0.7, 0.05, 0.99))),
            used_with(
                "limited", 1,
-               number("sigma", "Smallest size",
-                      "No length shrinks below this fraction of its original", 0.5, 0.01, 0.99)),
+               in_percent(number("sigma", "Smallest size",
+                                 "No length shrinks below this part of its original", 0.5, 0.01,
+                                 0.99))),
            used_with("limited", 1,
-                     by_decades("Sigma", "Max growth", "No length grows by more than this factor",
-                                2, 1.01, 100))},
+                     in_percent(by_decades("Sigma", "Max growth",
+                                           "No length grows beyond this size", 2, 1.01, 100)))},
       .uses_pins = true,
       .uses_strokes = true,
       .uses_stiffness = true,

@@ -1,4 +1,4 @@
-// The table of actions. Menus, toolbar, tooltips, keys, help and tests all read it.
+// The table of actions. Menus (menus.h), toolbar, tooltips, keys, help and tests all read it.
 #pragma once
 
 #include "edit/input.h"
@@ -13,7 +13,6 @@ struct Action {
   std::string id, label;
   const char* hint = "";  ///< for the tooltip; empty if the label says everything
   const char* icon = "";  ///< a glyph of the icon font; empty: none
-  const char* menu = "";  ///< the menu that lists the action; empty: none
   std::vector<Shortcut> keys = {};
   bool (*enabled)(const Workspace&) = nullptr;  ///< required; `always` if there is no condition
   void (*run)(Workspace&) = nullptr;            ///< null for actions that last while a key is held
@@ -21,7 +20,7 @@ struct Action {
   bool during_gesture = false;                  ///< its keys also work during a tool's gesture
 };
 
-/// The rows in menu order with their current keys: the built-in keys with the user's changes. Value
+/// The rows with their current keys: the built-in keys with the user's changes. Value
 /// type, owned by a workspace.
 class ActionTable {
  public:

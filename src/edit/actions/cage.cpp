@@ -4,6 +4,8 @@
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/curve_edits.h"
 #include "edit/edits/hole_edits.h"
+#include "edit/edits/method_edits.h"
+#include "edit/method_choice.h"
 #include "edit/picture_cage.h"
 #include "edit/tools/tool.h"
 
@@ -61,8 +63,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.from_picture",
           .label = "Make from picture",
           .hint = "Fit a cage to the outline of the picture",
-          .icon = kMagic,
-          .menu = "Cage",
+          .icon = icon_named("outline"),
           .enabled = has_image,
           .run = cage_from_picture,
       },
@@ -70,8 +71,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.box",
           .label = "Place",
           .hint = "Put a box around the picture, to move, scale and rotate it",
-          .icon = kMove,
-          .menu = "Cage",
+          .icon = icon_named("fit"),
           .enabled = has_image,
           .run = make_box,
       },
@@ -79,7 +79,6 @@ std::vector<Action> cage_actions() {
           .id = "cage.rest",
           .label = "Edit rest shape",
           .hint = "The pose stays while you edit the rest shape",
-          .menu = "Cage",
           .keys = {Key::tab},
           .enabled = has_cage,
           .run = switch_mode,
@@ -89,7 +88,6 @@ std::vector<Action> cage_actions() {
           .id = "cage.corner",
           .label = "Smooth or corner",
           .hint = "Make the selected points smooth, or corners if all are smooth",
-          .menu = "Cage",
           .keys = {'C'},
           .enabled = has_cage_selection,
           .run = toggle_corners,
@@ -98,7 +96,6 @@ std::vector<Action> cage_actions() {
           .id = "cage.all_corners",
           .label = "All points as corners",
           .hint = "Let the Angles tool turn and open every point",
-          .menu = "Cage",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
           .run =
               [](Workspace& w) {
@@ -109,7 +106,6 @@ std::vector<Action> cage_actions() {
           .id = "cage.fill",
           .label = "Fill holes",
           .hint = "Remove the holes with selected points, or all holes of the cage",
-          .menu = "Cage",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().rest.holes.empty(); },
           .run =
               [](Workspace& w) {
@@ -121,7 +117,6 @@ std::vector<Action> cage_actions() {
           .id = "cage.bake",
           .label = "Apply pins to cage",
           .hint = "Give the cage the pose made by the pins, and switch to the Cage method",
-          .menu = "Cage",
           .enabled =
               [](const Workspace& w) {
                 return w.shown.deformation().has_cage() &&
@@ -134,7 +129,6 @@ std::vector<Action> cage_actions() {
           .id = "cage.raise",
           .label = "Raise degree",
           .hint = "For the selected curves, or for all; they keep their shape",
-          .menu = "Cage",
           .enabled = has_cage,
           .run =
               [](Workspace& w) {
@@ -145,7 +139,6 @@ std::vector<Action> cage_actions() {
           .id = "cage.lower",
           .label = "Lower degree",
           .hint = "Fit curves of lower degree to the selected ones, or to all",
-          .menu = "Cage",
           .enabled = has_cage,
           .run =
               [](Workspace& w) {
@@ -154,17 +147,20 @@ std::vector<Action> cage_actions() {
       },
       {
           .id = "map.fold_free",
-          .label = "Make it fold-free",
-          .hint = "Switch to No folds, which follows the current method",
-          .menu = "Cage",
-          .enabled = [](const Workspace& w) { return has_cage(w) && !is_bounded(w); },
-          .run = [](Workspace& w) { w.commit("Make fold-free", fold_free(w.shown.deformation())); },
+          .label = "Prevent folds",
+          .hint = "Keep the picture within limits of size and shape, so that nothing folds",
+          .icon = icon_named("check"),
+          .enabled =
+              [](const Workspace& w) {
+                return has_cage(w) && can_prevent_folds(chosen_method(w.shown.deformation()));
+              },
+          .run = [](Workspace& w) { prevent_folds(w, !prevents_folds(w.shown.deformation())); },
+          .checked = [](const Workspace& w) { return prevents_folds(w.shown.deformation()); },
       },
       {
           .id = "map.play",
           .label = "Play iterations",
           .hint = "Watch the map converge",
-          .menu = "Cage",
           .enabled = converges,
           .run =
               [](Workspace& w) {
@@ -177,7 +173,6 @@ std::vector<Action> cage_actions() {
       {
           .id = "map.step",
           .label = "Next iteration",
-          .menu = "Cage",
           .enabled = [](const Workspace& w) { return converges(w) && w.playback.iteration; },
           .run =
               [](Workspace& w) {
@@ -190,7 +185,6 @@ std::vector<Action> cage_actions() {
       {
           .id = "map.restart",
           .label = "First iteration",
-          .menu = "Cage",
           .enabled = converges,
           .run = [](Workspace& w) { w.playback = {0}; },
       },

@@ -30,9 +30,6 @@ inline bool can_be_compared(const Deformation& deformation) {
   return method.follows_others ||
          (method.id == usual_method(MethodUse::puppet).id && !deformation.pins.empty());
 }
-inline bool is_bounded(const Workspace& w) {
-  return method_named(w.shown.deformation().method).follows_others;
-}
 inline bool has_surface(const Workspace& w) {
   return w.shown.deformation().surface.has_value();
 }

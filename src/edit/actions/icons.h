@@ -1,20 +1,42 @@
-// Glyphs of Font Awesome 4.
+// The icons of assets/icons. In the interface's fonts, each is a character of the private use area.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
 
 namespace holomorph {
 
-inline constexpr const char *kAdd = "\uf067", *kAngle = "\uf14e", *kBack = "\uf048",
-                            *kDouble = "\uf24d", *kDown = "\uf063", *kExport = "\uf1c5",
-                            *kFilm = "\uf008", *kFirst = "\uf049", *kFit = "\uf065",
-                            *kForward = "\uf051", *kHalves = "\uf042", *kHelp = "\uf059",
-                            *kKey = "\uf084", *kLast = "\uf050", *kLoop = "\uf079",
-                            *kMagic = "\uf0d0", *kMove = "\uf047", *kNew = "\uf016",
-                            *kOnion = "\uf24d", *kOpen = "\uf07c", *kOutline = "\uf044",
-                            *kPen = "\uf040", *kPin = "\uf08d", *kPlay = "\uf04b",
-                            *kPointer = "\uf245", *kRecord = "\uf111", *kRedo = "\uf01e",
-                            *kReset = "\uf0e2", *kSave = "\uf0c7", *kSearch = "\uf002",
-                            *kShield = "\uf132", *kSnap = "\uf076", *kSoft = "\uf192",
-                            *kStroke = "\uf1fc", *kSymmetry = "\uf0ec", *kTrash = "\uf1f8",
-                            *kUndo = "\uf0e2", *kUp = "\uf062";
+/// The names of the files in assets/icons, sorted. The build checks that they agree.
+inline constexpr const char* kIconNames[] = {
+    "add",     "angle",     "attach",   "auto-key", "brush",  "cage",   "check",  "clock",
+    "close",   "compare",   "down",     "duplicate", "export", "eye",    "eye-off", "film",
+    "fit",     "folder",    "help",     "key",      "lock",   "loop",   "mesh",   "minus",
+    "more",    "next",      "onion",    "outline",  "pause",  "pen",    "picture", "pin",
+    "play",    "previous",  "redo",     "reset",    "right",  "search", "select", "snap",
+    "soft",    "stroke",    "symmetry", "to-end",   "to-start", "trash", "undo",  "unlock",
+    "up",      "warning"};
+
+inline constexpr unsigned kFirstIcon = 0xe000;  ///< the code point of the first name
+
+struct IconText {
+  char utf8[4] = {};
+};
+inline constexpr auto kIconTexts = [] {
+  std::array<IconText, std::size(kIconNames)> texts{};
+  for (size_t i = 0; i < texts.size(); ++i) {
+    const unsigned code = kFirstIcon + static_cast<unsigned>(i);
+    texts[i] = {{static_cast<char>(0xe0 | code >> 12), static_cast<char>(0x80 | (code >> 6 & 63)),
+                 static_cast<char>(0x80 | (code & 63)), 0}};
+  }
+  return texts;
+}();
+
+/// The text that draws an icon, in UTF-8. A name that does not exist is a compile error.
+consteval const char* icon_named(std::string_view name) {
+  for (size_t i = 0; i < std::size(kIconNames); ++i)
+    if (name == kIconNames[i]) return kIconTexts[i].utf8;
+  throw "no icon has this name";
+}
 
 }  // namespace holomorph

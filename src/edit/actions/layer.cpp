@@ -59,8 +59,7 @@ std::vector<Action> layer_actions() {
           .id = "layer.add",
           .label = "Add picture...",
           .hint = "Add a picture as a layer",
-          .icon = kAdd,
-          .menu = "Layer",
+          .icon = icon_named("add"),
           .enabled = has_content,
           .run = ask<Request::add_layer>,
       },
@@ -68,15 +67,13 @@ std::vector<Action> layer_actions() {
           .id = "layer.replace",
           .label = "Replace picture...",
           .hint = "Keep the cage, pins and keyframes",
-          .menu = "Layer",
           .enabled = has_content,
           .run = ask<Request::replace_picture>,
       },
       {
           .id = "layer.double",
           .label = "Duplicate layer",
-          .icon = kDouble,
-          .menu = "Layer",
+          .icon = icon_named("duplicate"),
           .keys = {{'J', kCtrl}},
           .enabled = has_content,
           .run =
@@ -87,7 +84,6 @@ std::vector<Action> layer_actions() {
       {
           .id = "layer.rename",
           .label = "Rename layer",
-          .menu = "Layer",
           .keys = {Key::f2},
           .enabled = has_content,
           .run = ask<Request::rename_layer>,
@@ -95,8 +91,7 @@ std::vector<Action> layer_actions() {
       {
           .id = "layer.delete",
           .label = "Delete layer",
-          .icon = kTrash,
-          .menu = "Layer",
+          .icon = icon_named("trash"),
           .enabled = has_others,
           .run =
               [](Workspace& w) {
@@ -110,7 +105,6 @@ std::vector<Action> layer_actions() {
       {
           .id = "layer.above",
           .label = "Edit layer above",
-          .menu = "Layer",
           .keys = {Key::page_up},
           .enabled = has_neighbor<1>,
           .run = choose<1>,
@@ -118,7 +112,6 @@ std::vector<Action> layer_actions() {
       {
           .id = "layer.below",
           .label = "Edit layer below",
-          .menu = "Layer",
           .keys = {Key::page_down},
           .enabled = has_neighbor<-1>,
           .run = choose<-1>,
@@ -126,8 +119,7 @@ std::vector<Action> layer_actions() {
       {
           .id = "layer.up",
           .label = "Move layer up",
-          .icon = kUp,
-          .menu = "Layer",
+          .icon = icon_named("up"),
           .keys = {{Key::page_up, kCtrl}},
           .enabled = has_neighbor<1>,
           .run = move<1>,
@@ -135,8 +127,7 @@ std::vector<Action> layer_actions() {
       {
           .id = "layer.down",
           .label = "Move layer down",
-          .icon = kDown,
-          .menu = "Layer",
+          .icon = icon_named("down"),
           .keys = {{Key::page_down, kCtrl}},
           .enabled = has_neighbor<-1>,
           .run = move<-1>,
@@ -145,7 +136,6 @@ std::vector<Action> layer_actions() {
           .id = "layer.visible",
           .label = "Show layer",
           .hint = "Show or hide the current layer",
-          .menu = "Layer",
           .keys = {{'H', kCtrl}},
           .enabled = has_content,
           .run = show_layer,
@@ -155,7 +145,6 @@ std::vector<Action> layer_actions() {
           .id = "layer.lock",
           .label = "Lock layer",
           .hint = "Protect the current layer from changes, or unlock it",
-          .menu = "Layer",
           .keys = {{'L', kCtrl}},
           .enabled = has_content,
           .run = lock_layer,
@@ -164,7 +153,6 @@ std::vector<Action> layer_actions() {
       {
           .id = "background.transparent",
           .label = "Background: transparent",
-          .menu = "Layer",
           .enabled = has_content,
           .run = set_background<Fill::transparent>,
           .checked = has_background<Fill::transparent>,
@@ -172,7 +160,6 @@ std::vector<Action> layer_actions() {
       {
           .id = "background.color",
           .label = "Background: color",
-          .menu = "Layer",
           .enabled = has_content,
           .run = set_background<Fill::color>,
           .checked = has_background<Fill::color>,
@@ -181,7 +168,6 @@ std::vector<Action> layer_actions() {
           .id = "background.original",
           .label = "Background: original picture",
           .hint = "Fill the gaps that moved parts leave",
-          .menu = "Layer",
           .enabled = has_content,
           .run = set_background<Fill::original>,
           .checked = has_background<Fill::original>,

@@ -36,8 +36,7 @@ std::vector<Action> time_actions() {
       {
           .id = "time.play",
           .label = "Play",
-          .icon = kPlay,
-          .menu = "Time",
+          .icon = icon_named("play"),
           .keys = {Key::space},
           .enabled = plays,
           .run =
@@ -53,8 +52,7 @@ std::vector<Action> time_actions() {
       {
           .id = "time.back",
           .label = "Previous frame",
-          .icon = kBack,
-          .menu = "Time",
+          .icon = icon_named("previous"),
           .keys = {','},
           .enabled = has_keys,
           .run = step_frame<-1>,
@@ -62,8 +60,7 @@ std::vector<Action> time_actions() {
       {
           .id = "time.forward",
           .label = "Next frame",
-          .icon = kForward,
-          .menu = "Time",
+          .icon = icon_named("next"),
           .keys = {'.'},
           .enabled = has_keys,
           .run = step_frame<1>,
@@ -71,8 +68,7 @@ std::vector<Action> time_actions() {
       {
           .id = "time.previous_key",
           .label = "Previous keyframe",
-          .icon = kFirst,
-          .menu = "Time",
+          .icon = icon_named("to-start"),
           .keys = {{',', kShift}, {'<', kShift}},
           .enabled = has_keys,
           .run = step_key<false>,
@@ -80,8 +76,7 @@ std::vector<Action> time_actions() {
       {
           .id = "time.next_key",
           .label = "Next keyframe",
-          .icon = kLast,
-          .menu = "Time",
+          .icon = icon_named("to-end"),
           .keys = {{'.', kShift}, {'>', kShift}},
           .enabled = has_keys,
           .run = step_key<true>,
@@ -90,8 +85,7 @@ std::vector<Action> time_actions() {
           .id = "time.key",
           .label = "Set keyframe",
           .hint = "Store the current pose at the current time",
-          .icon = kKey,
-          .menu = "Time",
+          .icon = icon_named("key"),
           .keys = {'I'},
           .enabled = has_cage,
           .run = [](Workspace& w) { w.set_key(); },
@@ -100,7 +94,6 @@ std::vector<Action> time_actions() {
           .id = "time.delete_key",
           .label = "Delete keyframe",
           .hint = "Delete the keyframe at the current time",
-          .menu = "Time",
           .enabled = [](const Workspace& w) { return key_here(w).has_value(); },
           .run =
               [](Workspace& w) {
@@ -112,8 +105,7 @@ std::vector<Action> time_actions() {
           .id = "time.auto_key",
           .label = "Auto-key",
           .hint = "Every change of the pose sets a keyframe",
-          .icon = kRecord,
-          .menu = "Time",
+          .icon = icon_named("auto-key"),
           .keys = {'K'},
           .enabled = has_cage,
           .run =
@@ -127,8 +119,7 @@ std::vector<Action> time_actions() {
           .id = "time.loop",
           .label = "Loop",
           .hint = "Start again after the last keyframe",
-          .icon = kLoop,
-          .menu = "Time",
+          .icon = icon_named("loop"),
           .enabled = has_cage,
           .run = [](Workspace& w) { w.shown.timeline.loop = !w.shown.timeline.loop; },
           .checked = [](const Workspace& w) { return w.shown.timeline.loop; },
@@ -137,8 +128,7 @@ std::vector<Action> time_actions() {
           .id = "time.onion",
           .label = "Onion skin",
           .hint = "Show the keyframes before and after the current time",
-          .icon = kOnion,
-          .menu = "Time",
+          .icon = icon_named("onion"),
           .enabled = has_cage,
           .run = [](Workspace& w) { w.shown.timeline.onion = !w.shown.timeline.onion; },
           .checked = [](const Workspace& w) { return w.shown.timeline.onion; },
@@ -146,7 +136,6 @@ std::vector<Action> time_actions() {
       {
           .id = "time.copy",
           .label = "Copy pose",
-          .menu = "Time",
           .keys = {{'C', kCtrl}},
           .enabled = has_cage,
           .run =
@@ -159,7 +148,6 @@ std::vector<Action> time_actions() {
       {
           .id = "time.paste",
           .label = "Paste pose",
-          .menu = "Time",
           .keys = {{'V', kCtrl}},
           .enabled = has_copied,
           .run =
@@ -171,7 +159,6 @@ std::vector<Action> time_actions() {
           .id = "time.paste_mirrored",
           .label = "Paste pose mirrored",
           .hint = "Needs a cage that is symmetric at rest",
-          .menu = "Time",
           .keys = {{'V', kCtrlShift}},
           .enabled = has_copied,
           .run =

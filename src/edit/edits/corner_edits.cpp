@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "edit/edits/method_edits.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {

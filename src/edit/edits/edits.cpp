@@ -10,6 +10,7 @@
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/displacement.h"
 #include "edit/edits/hole_edits.h"
+#include "edit/edits/method_edits.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -198,15 +199,6 @@ Deformation with_pin(Deformation deformation, Complex rest, Complex pose,
   return deformation;
 }
 
-bool has_method_for(const Deformation& deformation, MethodUse use) {
-  const Method& method = method_named(deformation.method);
-  return followed_method(method, deformation.parameters).id == usual_method(use).id;
-}
-
-Deformation with_method_for(Deformation deformation, MethodUse use) {
-  return with_method(std::move(deformation), usual_method(use).id);
-}
-
 Deformation with_stroke(Deformation deformation, Points rest, Points pose,
                         const std::vector<Points>& in_keyframes) {
   if (!has_method_for(deformation, MethodUse::strokes))
@@ -325,39 +317,6 @@ Deformation baked(Deformation deformation) {
         "the pins act on a finer boundary than the cage's points; turn on \"Cage's own points\"");
   deformation.pose = *solved;
   return with_method_for(std::move(deformation), MethodUse::cage);
-}
-
-Deformation with_method(Deformation deformation, const std::string& id) {
-  method_named(id);
-  if (id == deformation.method) return deformation;
-  if (deformation.parameters.empty())
-    deformation.other_parameters.erase(deformation.method);
-  else
-    deformation.other_parameters[deformation.method] = std::move(deformation.parameters);
-  deformation.parameters.clear();
-  if (auto kept = deformation.other_parameters.extract(id))
-    deformation.parameters = std::move(kept.mapped());
-  deformation.method = id;
-  return deformation;
-}
-
-Deformation with_preset(Deformation deformation, const Preset& preset) {
-  for (const Preset& other : method_named(deformation.method).presets)
-    for (const auto& entry : other.parameters) deformation.parameters.erase(entry.first);
-  for (const auto& [key, value] : preset.parameters) deformation.parameters[key] = value;
-  return deformation;
-}
-
-Deformation fold_free(Deformation deformation) {
-  const Method& bounded = usual_method(MethodUse::bounds);
-  const ParameterSpec& reference =
-      *std::ranges::find(bounded.parameters, "reference", &ParameterSpec::key);
-  const auto followed =
-      std::ranges::find(reference.options, deformation.method, &ParameterSpec::Option::id);
-  check(followed != reference.options.end(), "fold_free: the method can be followed");
-  deformation = with_method(std::move(deformation), bounded.id);
-  deformation.parameters[reference.key] = static_cast<double>(followed - reference.options.begin());
-  return deformation;
 }
 
 CageHit nearest_on_cage(const Cage& cage, Complex z) {

@@ -65,12 +65,6 @@ Deformation inserted(Deformation deformation, Index segment, double t);
 /// remain.
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit = Refit::curve);
 
-/// Whether the deformation's method, or the method that it follows, is the usual method for this
-/// use.
-bool has_method_for(const Deformation& deformation, MethodUse use);
-/// Switches to the usual method for this use.
-Deformation with_method_for(Deformation deformation, MethodUse use);
-
 /// Adds a pin. If the method does not use pins, switches to one that does. `in_keyframes` contains
 /// the image of `rest` in each keyframe; the pin is placed there. If the list is empty, the pin is
 /// at `pose` in all keyframes.
@@ -111,15 +105,6 @@ Deformation reset(Deformation deformation, const Selection& selection);
 /// The pins are kept. Throws Error unless the pins act on the cage's own control points (parameter
 /// own_controls).
 Deformation baked(Deformation deformation);
-
-/// Switches to the method `bounded`, which follows the current method.
-Deformation fold_free(Deformation deformation);
-
-/// Switches to another method and restores the parameters with which it was last used.
-Deformation with_method(Deformation deformation, const std::string& id);
-/// Applies a preset of the method. Parameters that only other presets set are reset to their
-/// defaults.
-Deformation with_preset(Deformation deformation, const Preset& preset);
 
 /// A point on a cage: the segment, its parameter t, and the distance to a given point.
 struct CageHit {

@@ -4,6 +4,7 @@
 
 #include "edit/actions/actions.h"
 #include "edit/edits/corner_edits.h"
+#include "edit/edits/method_edits.h"
 #include "edit/tools/tool.h"
 
 namespace holomorph {

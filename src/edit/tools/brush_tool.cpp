@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "edit/actions/actions.h"
+#include "edit/edits/method_edits.h"
 #include "edit/tools/tool.h"
 
 namespace holomorph {
 namespace {
 
-constexpr double kStrength = 0.5;  ///< change of the stiffness per dab, in powers of ten
 constexpr double kSpacing = 0.35;  ///< distance between dabs, as a fraction of the radius
 
 class BrushTool final : public Tool {
@@ -26,7 +26,8 @@ class BrushTool final : public Tool {
       last_.reset();
       dabs_ = workspace.shown.deformation().stiffness;
       erases_ = input.mods.shift;
-      level_ = input.mods.ctrl ? -kStrength : kStrength;
+      const double strength = workspace.tools.brush_strength;
+      level_ = input.mods.ctrl ? -strength : strength;
     }
     if (!painting_) return;
     add_dab(input, workspace);
@@ -82,7 +83,7 @@ class BrushTool final : public Tool {
   }
 
   bool painting_ = false, erases_ = false, full_ = false;
-  double level_ = kStrength, radius_ = 1;
+  double level_ = 0.5, radius_ = 1;
   std::optional<Complex> position_, last_;
   std::vector<BrushDab> dabs_;
 };

@@ -6,6 +6,7 @@
 #include "core/mesh/mesher.h"
 #include "edit/actions/actions.h"
 #include "edit/edits/corner_edits.h"
+#include "edit/edits/method_edits.h"
 #include "scene/formats/scene_json.h"
 #include "support/desk.h"
 

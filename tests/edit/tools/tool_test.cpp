@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "edit/actions/actions.h"
+#include "edit/edits/method_edits.h"
 #include "edit/tools/tool.h"
 #include "scene/auto_cage.h"
 #include "support/desk.h"
