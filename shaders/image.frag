@@ -1,14 +1,23 @@
 // Colors the warped picture: the texture, a heat map or a checker. Premultiplied alpha.
 uniform sampler2D picture;
 uniform sampler1D colors;
-uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one color, 4: tinted picture
+uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one color, 4: tinted picture, 5: page, 6: shadow
 uniform vec4 flat_color;
+uniform vec4 other_color;    // the second color of the page
+uniform float cell_size;     // of the page's checkerboard, in plane units
+uniform float softness;      // standard deviation of the shadow, in plane units
+uniform vec2 picture_size;   // in plane units
 
 in vec2 uv;
 in vec2 rest_position;
 in float shade;
 
 out vec4 color;
+
+// The integral of a Gaussian up to x, in standard deviations.
+float smooth_step(float x) {
+  return 1.0 / (1.0 + exp(-1.702 * x));
+}
 
 void main() {
   if (coloring == 0) {
@@ -25,6 +34,15 @@ void main() {
   } else if (coloring == 4) {
     vec4 here = texture(picture, uv);
     color = flat_color.a * vec4(mix(here.rgb, here.a * flat_color.rgb, 0.5), here.a);
+  } else if (coloring == 5) {
+    vec2 cell = floor(rest_position / cell_size);
+    color = mod(cell.x + cell.y, 2.0) < 0.5 ? flat_color : other_color;
+  } else if (coloring == 6) {
+    // A box blurred by a Gaussian, shifted down by half the softness.
+    vec2 at = rest_position + vec2(0.0, 0.5 * softness);
+    vec2 low = at / softness, high = (picture_size - at) / softness;
+    float covered = smooth_step(low.x) * smooth_step(high.x) * smooth_step(low.y) * smooth_step(high.y);
+    color = vec4(0.0, 0.0, 0.0, flat_color.a * covered);
   } else {
     color = flat_color;
   }

@@ -2,6 +2,7 @@
 // method's operator to its controls.
 uniform mat3 to_clip;          // plane to clip coordinates
 uniform vec2 picture_size;     // in plane units
+uniform float margin;         // enlarges the picture's rectangle on all sides, in plane units
 uniform int mode;              // 0: at rest, 1: positions, 2: operator
 uniform int column_count;      // size of the operator
 uniform int row_count;
@@ -19,6 +20,7 @@ out vec2 warped;    // read back by transform feedback
 
 void main() {
   vec2 at = rest;
+  if (margin > 0.0) at += margin * (2.0 * rest / picture_size - 1.0);
   if (mode == 1) at = position;
   if (mode == 2) {
     vec2 sum = vec2(0.0);
@@ -31,7 +33,7 @@ void main() {
   }
   warped = at;
   uv = vec2(rest.x / picture_size.x, 1.0 - rest.y / picture_size.y);
-  rest_position = rest;
+  rest_position = mode == 0 ? at : rest;
   shade = value;
   gl_Position = vec4((to_clip * vec3(at, 1.0)).xy, 0.0, 1.0);
 }

@@ -373,7 +373,10 @@ class Editor {
     const CanvasColors colors = canvas_colors();
     canvas_.draw(workspace_, {window_.framebuffer_width(), window_.framebuffer_height(),
                               static_cast<double>(window_.framebuffer_width()) / window_.width(),
-                              colors.canvas, colors.page_a});
+                              colors.canvas, colors.page_a, colors.page_b,
+                              static_cast<double>(px(8)),
+                              has_high_contrast() ? 0 : static_cast<double>(px(12)),
+                              is_light() ? 0.2f : 0.4f});
   }
 
   void draw_panels(const Input& input, PanelSizes sizes) {
@@ -411,9 +414,9 @@ class Editor {
     toasts_.draw(workspace_, style);
     if (workspace_.map().error() && workspace_.map().error()->where())
       draw_marker(workspace_, *workspace_.map().error()->where(), style);
-    files_.draw(scale);
-    keys_.draw(scale);
-    answer(palette_.draw(workspace_, preferences_, scale));
+    files_.draw();
+    keys_.draw();
+    answer(palette_.draw(workspace_, preferences_));
   }
 
   /// Draws the cards and the inspector, whose lower part cards take if the canvas has no room.

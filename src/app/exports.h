@@ -22,7 +22,7 @@ class Exports {
   bool has_exported() const { return dialog_.has_exported(); }
   /// Whether the dialog for pictures and films is open.
   bool asking() const { return dialog_.open(); }
-  void draw(double scale) { dialog_.draw(scale); }
+  void draw() { dialog_.draw(); }
 
  private:
   Path in_folder(const std::string& name) const;

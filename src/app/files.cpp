@@ -54,7 +54,7 @@ void Files::ask_about_changes_then(Then then) {
   questions_.ask(
       {"Unsaved changes",
        "Save changes to \"" + short_name(workspace_.document.name()) + "\" before closing?",
-       {{"Save", [this, then] { save(false, then); }}, {"Don't save", then}, {"Cancel", {}}}});
+       {{"Save", [this, then] { save(false, then); }}, {"Don't save", then, true}, {"Cancel", {}}}});
 }
 
 void Files::adopt(Document document) {
@@ -99,7 +99,7 @@ void Files::ask_about_unsaved(const std::vector<Recovery>& left) {
   const auto ask_again = [this, discard_it] {
     questions_.ask({"Unsaved work",
                     "Discard it permanently?",
-                    {{"Discard", discard_it}, {"Keep", [this] { ask_about_withheld(); }}},
+                    {{"Discard", discard_it, true}, {"Keep", [this] { ask_about_withheld(); }}},
                     1});
   };
   questions_.ask({"Unsaved work",
@@ -401,11 +401,19 @@ void Files::answer(Request request) {
   }
 }
 
-void Files::draw(double scale) {
-  dialog_.draw(scale);
-  questions_.draw(scale);
-  exports_.draw(scale);
-  jobs_.draw(scale);
+void Files::draw() {
+  const Path& scene = workspace_.document.path();
+  std::vector<Path> folders;
+  constexpr size_t kMostFolders = 4;
+  for (const Path& file : preferences_.recent)
+    if (const Path folder = file.parent_path();
+        folders.size() < kMostFolders && std::ranges::find(folders, folder) == folders.end())
+      folders.push_back(folder);
+  dialog_.set_places(scene.empty() ? Path() : scene.parent_path(), std::move(folders));
+  dialog_.draw();
+  questions_.draw();
+  exports_.draw();
+  jobs_.draw();
 }
 
 }  // namespace holomorph

@@ -44,7 +44,7 @@ class Files {
   void autosave();
   void keep_preferences();
   /// Draws the open dialog or question, if any.
-  void draw(double scale);
+  void draw();
   bool asking() const {
     return dialog_.open() || exports_.asking() || questions_.open() || jobs_.running();
   }

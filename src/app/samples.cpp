@@ -14,20 +14,20 @@ namespace holomorph {
 namespace {
 
 struct SampleRow {
-  const char *name, *title, *text;
+  const char *name, *title, *line, *text;
 };
 constexpr SampleRow kRows[] = {
-    {"giraffe", "Giraffe",
+    {"giraffe", "Giraffe", "Puppet: a lowered head",
      "Pins hold the feet, and others lower the head. Nothing grows or shrinks much."},
-    {"gecko", "Gecko", "Pins move the feet, head and tail, which keep their sizes."},
-    {"fish", "Fish", "A curved cage with few points. Drag its tangent handles."},
-    {"octopus", "Octopus", "Nothing folds, however far you pull the pins. Try to break it."},
-    {"snake", "Snake", "One stroke along its body. Move, bend or redraw the line."},
-    {"heart", "Heart", "A fish in the shape of a heart. Press U to draw another outline."},
-    {"tiger", "Tiger", "A painted face on a mask in space. Drag the mask to turn it."},
-    {"fern", "Fern",
+    {"gecko", "Gecko", "Puppet: feet and tail", "Pins move the feet, head and tail, which keep their sizes."},
+    {"fish", "Fish", "Curved cage", "A curved cage with few points. Drag its tangent handles."},
+    {"octopus", "Octopus", "Puppet: ten pins", "Nothing folds, however far you pull the pins. Try to break it."},
+    {"snake", "Snake", "Stroke along the body", "One stroke along its body. Move, bend or redraw the line."},
+    {"heart", "Heart", "Onto a drawn outline", "A fish in the shape of a heart. Press U to draw another outline."},
+    {"tiger", "Tiger", "Onto a mask in space", "A painted face on a mask in space. Drag the mask to turn it."},
+    {"fern", "Fern", "Angles: it unrolls",
      "Turned corners curl the tip more than once around. Press Space to unroll it."},
-    {"sunflower", "Sunflower", "A cage, and pins that turn the leaves and the head."}};
+    {"sunflower", "Sunflower", "Elastic: leaves and head", "A cage, and pins that turn the leaves and the head."}};
 constexpr double kThumbnail = 320;  ///< length of the longer side in pixels
 
 /// The folder with the samples. If the program is not installed, this is the folder in the source
@@ -57,7 +57,7 @@ const std::vector<Sample>& Samples::shown() {
     const Path folder = assets();
     for (const SampleRow& row : kRows)
       if (const Path scene = folder / (std::string(row.name) + ".json"); path_exists(scene))
-        samples_.push_back({scene, row.title, row.text});
+        samples_.push_back({scene, row.title, row.line, row.text});
     done_.resize(samples_.size());
     drawn_ = std::make_shared<DrawnThumbnails>();
   }

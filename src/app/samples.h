@@ -17,7 +17,7 @@ namespace holomorph {
 
 struct Sample {
   Path scene;
-  std::string title, text;
+  std::string title, line, text;  ///< the line stands below the title; the text is a tooltip
   Texture thumbnail =
       {};  ///< empty until drawn, or if drawing failed; opening the scene then shows the error
 };

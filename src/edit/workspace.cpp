@@ -363,7 +363,9 @@ void Workspace::open(Document opened) {
   mode = EditMode::pose;
   display.split.reset();
   display.view = View::image;
-  tools.active = shown.own().has_cage() ? ToolId::select : ToolId::pen;
+  tools.active = shown.own().has_cage() ? ToolId::select
+                 : document.image()     ? ToolId::pin
+                                        : ToolId::pen;
   // Missing pictures need no message, because the window offers to find them as long as they are
   // missing.
   if (document.layers_without_picture().empty()) messages.complain(document.warning());

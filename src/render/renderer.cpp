@@ -35,7 +35,7 @@ int mode_of(Placement placement) {
 }
 
 /// The numbers match the fragment shader.
-enum class Coloring { picture, heat, checker, flat, ghost };
+enum class Coloring { picture, heat, checker, flat, ghost, page, shadow };
 
 void clear_canvas(const RenderFrame& frame) {
   const int left = static_cast<int>(frame.canvas_left),
@@ -90,6 +90,7 @@ struct Renderer::Objects {
   /// Activates the program and its textures. `to_clip` is stored by columns.
   void use(const float (&to_clip)[9], bool is_diverging) const {
     glUseProgram(program);
+    glUniform1f(at("margin"), 0);
     glUniformMatrix3fv(at("to_clip"), 1, GL_FALSE, to_clip);
     glUniform2f(at("picture_size"), static_cast<float>(std::max(width, 1.0)),
                 static_cast<float>(std::max(height, 1.0)));
@@ -139,6 +140,22 @@ struct Renderer::Objects {
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
 
+  /// Draws the checkerboard behind the picture, and a soft shadow around it.
+  void draw_page(const RenderFrame& frame) const {
+    if (frame.shadow > 0) {
+      const double softness = frame.shadow / frame.zoom;
+      glUniform1f(at("softness"), static_cast<float>(softness));
+      glUniform1f(at("margin"), static_cast<float>(4 * softness));
+      color(Coloring::shadow, {}, frame.shadow_alpha);
+      draw_quad();
+      glUniform1f(at("margin"), 0);
+    }
+    color(Coloring::page, frame.backdrop);
+    const Color& other = frame.other_backdrop;
+    glUniform4f(at("other_color"), other[0], other[1], other[2], 1);
+    glUniform1f(at("cell_size"), static_cast<float>(frame.cell / frame.zoom));
+    draw_quad();
+  }
   /// Draws the picture outside the rest cage.
   void draw_surroundings() const {
     if (index_count > 0) {
@@ -383,11 +400,12 @@ void Renderer::draw(const RenderFrame& frame) {
          frame.diverging);
   const bool picture = gl.width > 0;
   // The backdrop, which is visible where the picture is transparent.
-  gl.color(Coloring::flat, frame.backdrop);
-  if (frame.map_alone)
+  if (frame.map_alone) {
+    gl.color(Coloring::flat, frame.backdrop);
     gl.draw_mesh(frame.placement);
-  else if (picture && !frame.over)
-    gl.draw_quad();
+  } else if (picture && !frame.over) {
+    gl.draw_page(frame);
+  }
   if (frame.content != Content::map) {
     gl.color(Coloring::picture);
     if (picture && frame.content == Content::original) gl.draw_quad();

@@ -47,8 +47,12 @@ struct RenderFrame {
   bool map_alone = false;   ///< draw only the mesh, opaque on a transparent canvas
   bool over = false;        ///< draw over the canvas: do not clear it, and draw no backdrop
   Content content = Content::map;
-  Color background{0.2f, 0.2f, 0.2f},
-      backdrop{0.25f, 0.25f, 0.25f};  ///< colors of the canvas and behind the picture
+  Color background{0.2f, 0.2f, 0.2f};  ///< of the canvas
+  Color backdrop{0.25f, 0.25f, 0.25f},
+      other_backdrop{0.25f, 0.25f, 0.25f};  ///< of the checkerboard behind the picture
+  double cell = 8;                          ///< width of its cells, framebuffer px
+  double shadow = 0;        ///< standard deviation of the page's shadow, framebuffer px; 0: none
+  float shadow_alpha = 0;   ///< its opacity
 };
 
 /// Owns the OpenGL objects. Needs a current OpenGL 3.3 core context during construction, calls and

@@ -192,6 +192,9 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
   PictureFiles files(open_pixels);
   if (lower_case(path.extension().string()) != ".ora") {
     loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
+    // Parts of a photograph that move away leave gaps, which the original fills.
+    if (loaded.image() && is_opaque(*loaded.image()))
+      loaded.scene.background.fill = Background::Fill::original;
     return loaded;
   }
   std::vector<Layer> layers;

@@ -95,7 +95,7 @@ TEST_CASE("The canvas at 100 % shows the exported pixels") {
     frame.canvas_width = width;
     frame.canvas_height = height;
     frame.center = {width / 2.0, height / 2.0};
-    frame.background = frame.backdrop = {0.5f, 0.5f, 0.5f};
+    frame.background = frame.backdrop = frame.other_backdrop = {0.5f, 0.5f, 0.5f};
     renderer.draw(frame);
     Image shown(width, height);
     read_framebuffer(width, height, shown.pixels.data());
@@ -133,7 +133,7 @@ TEST_CASE("Ghosts of the picture are tinted, half transparent, and drawn behind 
   frame.window_width = frame.window_height = kSide;
   frame.canvas_width = frame.canvas_height = kSide;
   frame.center = {30, 30};
-  frame.background = frame.backdrop = {0, 0, 0};
+  frame.background = frame.backdrop = frame.other_backdrop = {0, 0, 0};
   frame.ghosts = {{mesh.vertices, {1, 0, 0}}, {moved, {1, 0, 0}}};
   renderer.draw(frame);
   Image shown(kSide, kSide);

@@ -24,7 +24,11 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   frame.center = view.center;
   frame.zoom = view.zoom * at.ratio;
   frame.background = at.background;
-  frame.backdrop = at.backdrop;
+  frame.backdrop = at.page_a;
+  frame.other_backdrop = at.page_b;
+  frame.cell = at.cell * at.ratio;
+  frame.shadow = at.shadow * at.ratio;
+  frame.shadow_alpha = at.shadow_alpha;
   return frame;
 }
 
@@ -84,7 +88,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
   frame.to = to;
   // The color fills the whole canvas, as in exports.
   if (scene.background.fill == Background::Fill::color)
-    frame.background = frame.backdrop = color_of(scene.background);
+    frame.background = frame.backdrop = frame.other_backdrop = color_of(scene.background);
   const Layer& edited = scene.layer();
   edited_ = &painter_of(edited);
   std::vector<const Layer*> drawn;

@@ -14,7 +14,9 @@ namespace holomorph {
 struct CanvasFrame {
   int window_width = 1, window_height = 1;  ///< framebuffer px
   double ratio = 1;
-  Color background, backdrop;
+  Color background, page_a, page_b;  ///< the canvas and the checkerboard
+  double cell = 8, shadow = 0;       ///< width of the cells; softness of the shadow; window px
+  float shadow_alpha = 0;
 };
 
 /// Tint of an onion skin: blue for a keyframe after the current time (`later`), otherwise orange.

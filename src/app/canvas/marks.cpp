@@ -1,24 +1,48 @@
 // Every mark has a dark edge, so that it is visible on any picture.
 #include "app/canvas/marks.h"
 
+#include <cmath>
+#include <cstdio>
+
+#include "app/look/text.h"
 #include "edit/tools/tool.h"
 
 namespace holomorph {
 
-void draw_line(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
-               const OverlayStyle& style) {
-  const float width = static_cast<float>(style.scale);
+namespace {
+
+/// A line of a color with a dark line under it that is 2 px wider.
+void draw_edged(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
+                float width, const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
   const ImDrawFlags flags = closed ? ImDrawFlags_Closed : 0;
-  list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline, flags,
-                   3.5f * width);
-  list.AddPolyline(line.data(), static_cast<int>(line.size()), color, flags, 1.8f * width);
+  const int count = static_cast<int>(line.size());
+  list.AddPolyline(line.data(), count, style.colors.outline, flags, (width + 2) * s);
+  list.AddPolyline(line.data(), count, color, flags, width * s);
+}
+
+}  // namespace
+
+void draw_line(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
+               const OverlayStyle& style, float width) {
+  draw_edged(list, line, closed, color, width, style);
+}
+
+void draw_faint_line(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
+                     const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  const ImDrawFlags flags = closed ? ImDrawFlags_Closed : 0;
+  const int count = static_cast<int>(line.size());
+  list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 50), flags, 2.5f * s);
+  list.AddPolyline(line.data(), count, (color & 0x00ffffff) | 0x80000000, flags, s);
 }
 
 void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
                  const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), period = 12 * s, drawn = 8 * s;
   float at = 0;  // position within the period of the dashes
-  for (size_t i = 0; i < line.size(); ++i) {
+  const size_t count = line.size() == 2 ? 1 : line.size();  // two points form an open line
+  for (size_t i = 0; i < count; ++i) {
     const ImVec2 a = line[i], b = line[(i + 1) % line.size()];
     const float length = std::hypot(b.x - a.x, b.y - a.y);
     if (!(length > 0) || length > 1e5f) continue;
@@ -35,60 +59,88 @@ void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
 
 void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, bool hovered,
                       ImU32 color, const OverlayStyle& style) {
-  const float s = static_cast<float>(style.scale), r = (hovered ? 6.5f : 5.0f) * s;
-  const ImU32 fill = selected ? style.colors.selected : hovered ? style.colors.hover : color;
+  const float s = static_cast<float>(style.scale), r = (hovered ? 4.75f : 3.5f) * s;
+  const ImU32 fill = selected ? style.colors.selected : style.colors.hover;
+  const auto square = [&](float radius, ImU32 ink) {
+    list.AddRectFilled({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, ink, s);
+  };
   if (vertex) {
-    list.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, style.colors.outline, 2 * s);
-    list.AddRectFilled({at.x - r + 1.5f * s, at.y - r + 1.5f * s},
-                       {at.x + r - 1.5f * s, at.y + r - 1.5f * s}, fill, 1.5f * s);
-    if (selected)
-      list.AddRectFilled({at.x - 1.8f * s, at.y - 1.8f * s}, {at.x + 1.8f * s, at.y + 1.8f * s},
-                         color);
+    square(r + 1.5f * s, IM_COL32(0, 0, 0, 140));
+    square(r, fill);
+    square(r - 1.25f * s, selected ? IM_COL32_WHITE : color);
+    square(std::max(r - 2.25f * s, s), fill);
   } else {
-    list.AddCircleFilled(at, 0.9f * r, style.colors.outline);
-    list.AddCircleFilled(at, 0.9f * r - 1.3f * s, fill);
+    list.AddCircleFilled(at, 0.9f * r + 1.5f * s, IM_COL32(0, 0, 0, 140));
+    list.AddCircleFilled(at, 0.9f * r, fill);
   }
 }
 
 void draw_smooth_mark(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
-  list.AddCircle(at, 8.5f * s, style.colors.outline, 0, 2.6f * s);
-  list.AddCircle(at, 8.5f * s, style.colors.selected, 0, 1.2f * s);
+  list.AddCircle(at, 7.5f * s, style.colors.outline, 0, 2.6f * s);
+  list.AddCircle(at, 7.5f * s, style.colors.hover, 0, 1.1f * s);
+}
+
+void draw_chip(ImDrawList& list, ImVec2 corner, const std::string& text) {
+  const ThemeColors& c = theme_colors();
+  const ImVec2 size = text_size(Type::caption, text),
+               to(corner.x + size.x + holomorph::px(12), corner.y + size.y + holomorph::px(4));
+  list.AddRectFilled(corner, to, c.raised, holomorph::px(4));
+  list.AddRect(corner, to, c.edge, holomorph::px(4));
+  draw_text(list, Type::caption, {corner.x + holomorph::px(6), corner.y + holomorph::px(2)}, c.text,
+            text);
 }
 
 void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
               const OverlayStyle& style) {
-  const float s = static_cast<float>(style.scale), r = (hovered ? 8.5f : 7.0f) * s;
-  list.AddCircleFilled(at, r, style.colors.outline);
-  list.AddCircleFilled(at, r - 1.5f * s,
-                       selected  ? style.colors.selected
-                       : hovered ? style.colors.hover
-                                 : style.colors.pin);
-  list.AddCircleFilled(at, 2.4f * s, selected ? style.colors.pin : IM_COL32(60, 40, 0, 255));
-  if (pin.depth != 0) {
-    const std::string text = (pin.depth > 0 ? "+" : "") + std::to_string(pin.depth);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str()),
-                 corner(at.x + (selected ? 4.2f : 1) * r, at.y + 0.4f * r);
-    list.AddRectFilled(corner, {corner.x + size.x + 6 * s, corner.y + size.y + 2 * s},
-                       style.colors.panel, 3 * s);
-    list.AddText({corner.x + 3 * s, corner.y + s}, style.colors.text, text.c_str());
+  const float s = static_cast<float>(style.scale);
+  if (hovered)
+    list.AddCircleFilled(at, 10 * s, (style.colors.pin & 0x00ffffff) | 0x60000000, 32);
+  if (pin.angle && !selected) {
+    const float angle = static_cast<float>(*pin.angle), reach = 13 * s;
+    const ImVec2 end(at.x + reach * std::cos(angle), at.y - reach * std::sin(angle));
+    list.AddLine(at, end, style.colors.outline, 4 * s);
+    list.AddLine(at, end, style.colors.pin, 2 * s);
   }
-  if (pin.angle) {
-    const float angle = static_cast<float>(*pin.angle);
-    list.AddLine(at, {at.x + 1.9f * r * std::cos(angle), at.y - 1.9f * r * std::sin(angle)},
-                 style.colors.outline, 4 * s);
-    list.AddLine(at, {at.x + 1.9f * r * std::cos(angle), at.y - 1.9f * r * std::sin(angle)},
-                 style.colors.pin, 2 * s);
+  list.AddCircleFilled(at, 7.5f * s, IM_COL32(0, 0, 0, 90), 32);
+  list.AddCircleFilled(at, 6.5f * s, selected ? style.colors.pin : IM_COL32_WHITE, 32);
+  list.AddCircleFilled(at, 4.75f * s, selected ? IM_COL32_WHITE : style.colors.pin, 32);
+  if (pin.depth != 0)
+    draw_chip(list, {at.x + 8 * s, at.y + 4 * s},
+              (pin.depth > 0 ? "+" : "") + std::to_string(pin.depth));
+}
+
+void draw_ring(ImDrawList& list, ImVec2 at, float radius, const Pin& pin, bool hovered,
+               const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  const ImU32 amber = style.colors.pin;
+  const float angle = static_cast<float>(pin.angle.value_or(pin.turn.value_or(0)));
+  const ImVec2 knob(at.x + radius * std::cos(angle), at.y - radius * std::sin(angle));
+  if (pin.angle && std::abs(angle) > 1e-3f) {
+    // The wedge shows the rotation without whole turns.
+    const float shown = std::remainder(angle, 2 * static_cast<float>(kPi));
+    list.PathLineTo(at);
+    list.PathArcTo(at, radius, 0, -shown, 32);
+    list.PathFillConvex((amber & 0x00ffffff) | 0x50000000);
   }
+  list.AddCircle(at, radius, IM_COL32(0, 0, 0, 140), 64, 3.5f * s);
+  list.AddCircle(at, radius, hovered ? amber : IM_COL32_WHITE, 64, (hovered ? 2.5f : 1.5f) * s);
+  if (!pin.angle) return;
+  list.AddLine(at, knob, IM_COL32_WHITE, 1.5f * s);
+  list.AddCircleFilled(knob, 6 * s, IM_COL32(0, 0, 0, 140));
+  list.AddCircleFilled(knob, 5 * s, IM_COL32_WHITE);
+  char text[24];
+  std::snprintf(text, sizeof text, "%.0f\u00b0", static_cast<double>(angle) * 180 / kPi);
+  draw_chip(list, {at.x + radius + 8 * s, at.y - radius}, text);
 }
 
 void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   if (std::hypot(pin.x - place.x, pin.y - place.y) < 4 * s) return;
   list.AddLine(pin, place, style.colors.outline, 3.5f * s);
-  list.AddLine(pin, place, style.colors.warning, 1.8f * s);
+  draw_dashes(list, {pin, place}, style.colors.unreached, style);
   list.AddCircleFilled(place, 4.5f * s, style.colors.outline);
-  list.AddCircleFilled(place, 3 * s, style.colors.warning);
+  list.AddCircleFilled(place, 3 * s, style.colors.unreached);
 }
 
 void draw_zero(ImDrawList& list, ImVec2 at, const OverlayStyle& style) {

@@ -7,8 +7,13 @@ namespace holomorph {
 
 /// Draws a line with a dark edge.
 void draw_line(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
-               const OverlayStyle& style);
-/// Draws a dashed line. Rest shapes are dashed because not everyone can tell them from poses by
+               const OverlayStyle& style, float width = 1.5f);
+/// Draws a thin line at half strength, for what is not edited.
+void draw_faint_line(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
+                     const OverlayStyle& style);
+/// Draws a small text on a surface of its own.
+void draw_chip(ImDrawList& list, ImVec2 corner, const std::string& text);
+/// Draws a dashed line; with more than two points, it is closed. Rest shapes are dashed because not everyone can tell them from poses by
 /// their color.
 void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
                  const OverlayStyle& style);
@@ -20,6 +25,9 @@ void draw_smooth_mark(ImDrawList& list, ImVec2 at, const OverlayStyle& style);
 /// Draws a pin with its depth and, if it is fixed, its rotation.
 void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
               const OverlayStyle& style);
+/// Draws the ring around the selected pin. If the pin is fixed, also its rotation.
+void draw_ring(ImDrawList& list, ImVec2 at, float radius, const Pin& pin, bool hovered,
+               const OverlayStyle& style);
 /// Draws a line from a pin's target to the point where the map takes the pin, if the gap is
 /// visible.
 void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style);

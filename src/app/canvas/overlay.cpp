@@ -1,6 +1,9 @@
 // Decides what the overlay shows and in which order. marks.h draws the individual marks.
 #include "app/canvas/overlay.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/canvas/canvas.h"
 #include "app/canvas/corner_overlay.h"
 #include "app/canvas/marks.h"
@@ -95,29 +98,39 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
       *gesture.ring < static_cast<Index>(workspace.shown.deformation().pins.size())) {
     const ImVec2 at = px(workspace, workspace.shown.deformation().pins[*gesture.ring].pose);
     const float radius = static_cast<float>(kRingRadius * workspace.display.handle_px);
-    list.AddCircle(at, radius, style.colors.outline, 0, 4.5f * s);
-    list.AddCircle(at, radius, gesture.ring_hovered ? style.colors.hover : style.colors.pin, 0,
-                   (gesture.ring_hovered ? 3.2f : 2.2f) * s);
+    draw_ring(list, at, radius, workspace.shown.deformation().pins[*gesture.ring],
+              gesture.ring_hovered, style);
   }
 }
 
-/// Draws a stroke. Its start is a dot, its end a ring.
+/// Draws a stroke. Its start is a dot, its end an arrow.
 void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
                  const OverlayStyle& style) {
   const EditMode mode = workspace.mode;
   const Deformation& deformation = workspace.shown.deformation();
   const bool selected = workspace.selection.contains(handle);
-  const ImU32 color = selected  ? style.colors.selected
-                      : hovered ? style.colors.hover
-                                : (mode == EditMode::rest ? style.colors.rest : style.colors.pose);
+  const ImU32 color = selected                   ? style.colors.selected
+                      : hovered                  ? style.colors.hover
+                      : mode == EditMode::rest ? style.colors.rest
+                                                 : style.colors.stroke;
   const std::vector<ImVec2> line =
       window_line(workspace, curve_of(deformation, handle.index, mode));
-  draw_line(list, line, false, color, style);
+  draw_line(list, line, false, color, style, 2.25f);
   const float s = static_cast<float>(style.scale);
   list.AddCircleFilled(line.front(), 5.5f * s, style.colors.outline);
   list.AddCircleFilled(line.front(), 4 * s, color);
-  list.AddCircle(line.back(), 4.5f * s, style.colors.outline, 0, 3.4f * s);
-  list.AddCircle(line.back(), 4.5f * s, color, 0, 1.8f * s);
+  if (line.size() < 2) return;
+  const ImVec2 end = line.back();
+  ImVec2 from = line[line.size() - 2];
+  for (size_t i = line.size() - 1; i-- > 0;) {  // a direction over some px is steadier
+    from = line[i];
+    if (std::hypot(end.x - from.x, end.y - from.y) > 8 * s) break;
+  }
+  const float angle = std::atan2(end.y - from.y, end.x - from.x);
+  for (const float turn : {2.6f, -2.6f})
+    draw_line(list,
+              {end, {end.x + 9 * s * std::cos(angle + turn), end.y + 9 * s * std::sin(angle + turn)}},
+              false, color, style, 2.25f);
 }
 
 /// Draws the radius of a soft drag, and marks the handles that symmetry will move as well.
@@ -216,13 +229,46 @@ bool is_start_only(const Workspace& workspace) {
          workspace.tools.active == ToolId::angle;
 }
 
+/// How the cage is drawn.
 struct CageLook {
   ImU32 color;
-  bool faint;
+  bool faint;     ///< a thin line at half strength
+  bool points;    ///< with its points
+  bool hidden;    ///< not at all
 };
 
-ImU32 faint(ImU32 color) {
-  return (color & 0x00ffffff) | 0xb0000000;
+/// Whether the pointer is on the canvas, or near the cage.
+bool is_pointer_near_cage(const Workspace& workspace, bool anywhere) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Complex pointer(io.MousePos.x, io.MousePos.y);
+  if (io.WantCaptureMouse || !workspace.display.viewport.contains_px(pointer)) return false;
+  constexpr double kNear = 3;  // in picking distances
+  return anywhere ||
+         nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
+                         workspace.display.viewport.plane_at_px(pointer))
+                     .distance *
+                 workspace.display.viewport.zoom <
+             kNear * workspace.display.handle_px;
+}
+
+CageLook cage_look(const Workspace& workspace, const OverlayStyle& style) {
+  const Deformation& deformation = workspace.shown.deformation();
+  const bool rest = workspace.mode == EditMode::rest,
+             draws = workspace.tools.active == ToolId::pen ||
+                     workspace.tools.active == ToolId::angle,
+             acts = has_cage_handles(deformation, workspace.mode),
+             start_only = is_start_only(workspace);
+  CageLook look{rest ? style.colors.rest : style.colors.pose, start_only, true, false};
+  const bool selected =
+      std::ranges::any_of(workspace.selection, [](const Handle& handle) {
+        return handle.kind == Handle::Kind::cage;
+      });
+  if (rest || draws || selected || !deformation.has_cage()) return look;
+  look.points = acts && is_pointer_near_cage(workspace, !start_only);
+  look.faint = !look.points;
+  look.hidden = !look.points && !workspace.at_rest() &&
+                whole_pose_of(deformation) != whole_pose_of(at_rest(deformation)) && !acts;
+  return look;
 }
 
 /// The edge of the posed picture; empty before the first map.
@@ -238,10 +284,7 @@ Polygon edge_of(const Workspace& workspace) {
 void draw_faint_cage(ImDrawList& list, const Workspace& workspace, PolygonView cage, ImU32 color,
                      const OverlayStyle& style) {
   draw_loops(workspace, cage, [&](const std::vector<ImVec2>& line) {
-    const float s = static_cast<float>(style.scale);
-    const int count = static_cast<int>(line.size());
-    list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 70), ImDrawFlags_Closed, 2.6f * s);
-    list.AddPolyline(line.data(), count, faint(color), ImDrawFlags_Closed, 1.3f * s);
+    draw_faint_line(list, line, true, color, style);
   });
 }
 
@@ -250,22 +293,23 @@ void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
                  const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   const bool acts = has_cage_handles(deformation, workspace.mode);
-  if (deformation.has_cage() && look.faint)
+  if (deformation.has_cage() && look.faint && !look.hidden)
     draw_faint_cage(list, workspace, acts ? outline_of(deformation.pose, 24) : edge_of(workspace),
                     look.color, style);
-  else if (deformation.has_cage())
+  else if (deformation.has_cage() && !look.hidden)
     draw_cage(list, workspace, cage_of(deformation, workspace.mode), look.color, style);
-  if (const auto solved = look.faint ? solved_cage(workspace) : std::nullopt) {
+  if (const auto solved = is_start_only(workspace) ? solved_cage(workspace) : std::nullopt) {
     draw_loops(workspace, outline_of(*solved, 24), [&](const std::vector<ImVec2>& line) {
       draw_line(list, line, true, style.colors.pin, style);
     });
     for (const Complex& z : controls_of(*solved))
       list.AddCircleFilled(px(workspace, z), 3 * static_cast<float>(style.scale), style.colors.pin);
   }
-  if (deformation.has_cage() && acts)
+  if (deformation.has_cage() && acts && look.points)
     draw_tangents(list, workspace, cage_of(deformation, workspace.mode), look.color, style);
   if (workspace.shows_outline())
-    draw_line(list, window_line(workspace, deformation.outline), true, style.colors.accent, style);
+    draw_line(list, window_line(workspace, deformation.outline), true, style.colors.curve, style,
+              1.75f);
 }
 
 /// Marks pins that the map misses, zeros of its derivative, and corners at their limit.
@@ -287,13 +331,7 @@ void draw_cage_point(ImDrawList& list, const Workspace& workspace, Handle handle
   const Deformation& deformation = workspace.shown.deformation();
   const ImVec2 at = px(workspace, position_of(deformation, handle, workspace.mode));
   const bool selected = workspace.selection.contains(handle);
-  if (look.faint && !selected && !hovered) {
-    const float r = 2.6f * static_cast<float>(style.scale);
-    list.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, IM_COL32(0, 0, 0, 90));
-    list.AddRectFilled({at.x - r + 1, at.y - r + 1}, {at.x + r - 1, at.y + r - 1},
-                       faint(look.color));
-    return;
-  }
+  if (!look.points && !selected && !hovered) return;
   draw_cage_handle(list, at, handle.control == 0, selected, hovered, look.color, style);
   if (handle.control == 0 && is_smooth(deformation, handle.index, workspace.mode))
     draw_smooth_mark(list, at, style);
@@ -322,8 +360,7 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
                     const OverlayStyle& style) {
   draw_onion(list, workspace, style);
   if (workspace.display.show_cage && gesture.line.empty()) {
-    const CageLook look{workspace.mode == EditMode::rest ? style.colors.rest : style.colors.pose,
-                        is_start_only(workspace)};
+    const CageLook look = cage_look(workspace, style);
     draw_curves(list, workspace, look, style);
     draw_map_marks(list, workspace, style);
     draw_handles(list, workspace, gesture, look, style);

@@ -2,13 +2,13 @@
 #include "app/dialogs/export_dialog.h"
 
 #include <imgui.h>
-// Must follow imgui.h, because it does not include that header itself.
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "app/look/controls.h"
+#include "app/look/numbers.h"
+#include "app/look/surfaces.h"
 #include "app/panels/panels.h"
 #include "edit/content.h"
 #include "system/new_file.h"
@@ -276,19 +276,20 @@ void ExportDialog::accept() {
   open_ = !message_.empty();
 }
 
-void ExportDialog::draw_file(double scale) {
-  const float s = static_cast<float>(scale);
+void ExportDialog::draw_file() {
   if (std::exchange(opening_, false)) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-110 * s);
-  const bool entered = ImGui::InputTextWithHint(
-      "##name", "File", &name_,
-      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  row_label("File");
+  const float choose = px(96);
+  const bool entered =
+      text_field("##name", name_, "File", ImGui::GetContentRegionAvail().x - choose - px(8),
+                 ImGuiInputTextFlags_AutoSelectAll);
   if (ImGui::IsItemEdited()) {
     confirming_ = false;
     take_path(in_folder(name_));  // updates the chosen format
   }
-  ImGui::SameLine();
-  if (ImGui::Button("Choose...", {-1, 0})) {
+  ImGui::SameLine(0, px(8));
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - px(2));
+  if (button("Choose...", ButtonKind::secondary, choose)) {
     chooser_.ask(
         {FileQuestion::Mode::save, "Export to", "Choose", extensions(), Path(name_), false},
         [this](const Path& path, double) {
@@ -301,91 +302,99 @@ void ExportDialog::draw_file(double scale) {
   if (entered) accept();
 }
 
-void ExportDialog::draw_format(float s) {
+void ExportDialog::draw_format() {
   std::string preview = settings_.path.extension().string();
   const std::vector<Format> known = formats(plays(workspace_.document.scene()));
   for (const Format& format : known)
     if (uses_format(settings_, format)) preview = format.label;
-  ImGui::SetNextItemWidth(300 * s);
-  if (!ImGui::BeginCombo("Format", preview.c_str())) return;
+  row_label("Format");
+  if (!begin_dropdown("##Format", preview)) return;
   for (const Format& format : known)
-    if (ImGui::Selectable(format.label.c_str(), uses_format(settings_, format))) {
+    if (dropdown_row(format.label, uses_format(settings_, format))) {
       settings_.film = format.film;
       settings_.path = Path(name_).replace_extension(format.extension);
       name_ = settings_.path.string();
       confirming_ = false;
     }
-  ImGui::EndCombo();
+  end_dropdown();
 }
 
-void ExportDialog::draw_look(float s) {
-  float percent = static_cast<float>(100 * settings_.scale);
-  ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::SliderFloat("Scale", &percent, 10, 400, "%.0f %%",
-                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+void ExportDialog::draw_look() {
+  double percent = 100 * settings_.scale;
+  if (slider_row("Scale", percent,
+                 {.low = 10, .high = 400, .unit = "%", .logarithmic = true, .neutral = 100.0}))
     settings_.scale = std::round(percent) / 100;
-  int region = static_cast<int>(settings_.region);
-  ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::Combo("Region", &region, kRegions, 3))
-    settings_.region = static_cast<ExportSettings::Region>(region);
-  int background = settings_.background ? 1 + static_cast<int>(settings_.background->fill) : 0;
-  ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::Combo("Background", &background,
-                   "As in the scene\0Transparent\0Color\0Original picture\0")) {
-    if (background == 0)
-      settings_.background.reset();
-    else
-      settings_.background = {
-          static_cast<Background::Fill>(background - 1),
-          settings_.background ? settings_.background->color : Background{}.color};
+  row_label("Region");
+  const auto region = static_cast<size_t>(settings_.region);
+  if (begin_dropdown("##Region", kRegions[region])) {
+    for (size_t i = 0; i < std::size(kRegions); ++i)
+      if (dropdown_row(kRegions[i], i == region))
+        settings_.region = static_cast<ExportSettings::Region>(i);
+    end_dropdown();
+  }
+  static constexpr const char* kBackgrounds[] = {"As in the scene", "Transparent", "Color",
+                                                 "The original"};
+  const size_t background =
+      settings_.background ? 1 + static_cast<size_t>(settings_.background->fill) : 0;
+  row_label("Background");
+  if (begin_dropdown("##Background", kBackgrounds[background])) {
+    for (size_t i = 0; i < std::size(kBackgrounds); ++i)
+      if (dropdown_row(kBackgrounds[i], i == background)) {
+        if (i == 0)
+          settings_.background.reset();
+        else
+          settings_.background = {
+              static_cast<Background::Fill>(i - 1),
+              settings_.background ? settings_.background->color : Background{}.color};
+      }
+    end_dropdown();
   }
   if (!settings_.background || settings_.background->fill != Background::Fill::color) return;
-  float color[3];
-  for (size_t k = 0; k < 3; ++k)
-    color[k] = static_cast<float>(settings_.background->color[k]) / 255;
-  ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::ColorEdit3("Color", color, ImGuiColorEditFlags_DisplayHex))
-    for (size_t k = 0; k < 3; ++k)
-      settings_.background->color[k] =
-          static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[k], 0.0f, 1.0f)));
+  row_label("Color");
+  color_field("##Color", settings_.background->color, ImGui::GetContentRegionAvail().x);
 }
 
-void ExportDialog::draw_frames(float s) {
+void ExportDialog::draw_frames() {
   const int last = last_frame_of(workspace_.document.scene());
-  int range[2] = {settings_.first, settings_.last};
-  ImGui::SetNextItemWidth(300 * s);
-  if (ImGui::DragIntRange2("Frames", &range[0], &range[1], 0.2f, 0, last, "from %d", "to %d",
-                           ImGuiSliderFlags_AlwaysClamp)) {
+  row_label("Frames");
+  const float gap = px(8), width = std::floor((ImGui::GetContentRegionAvail().x - gap) / 2);
+  const Number number{.low = 0, .high = static_cast<double>(std::max(last, 1)), .speed = 0.2};
+  double from = settings_.first, to = settings_.last;
+  const Change first = number_field("##First", from, number, width, "From");
+  ImGui::SameLine(0, gap);
+  const Change final = number_field("##Last", to, number, width, "To");
+  if (first || final) {
     confirming_ = false;
-    settings_.first = std::clamp(range[0], 0, last);
-    settings_.last = std::clamp(range[1], settings_.first, last);
+    settings_.first = std::clamp(static_cast<int>(std::lround(from)), 0, last);
+    settings_.last = std::clamp(static_cast<int>(std::lround(to)), settings_.first, last);
   }
-  ImGui::Checkbox("Loop", &settings_.loops);
+  if (switch_row("Loop", settings_.loops)) settings_.loops = !settings_.loops;
 }
 
-void ExportDialog::draw(double scale) {
+void ExportDialog::draw() {
   if (!open_ || chooser_.open()) return;  // hidden while a file is being chosen
-  const float s = static_cast<float>(scale);
-  ImGui::OpenPopup("Export###export");
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(620 * s, display.x - 20), 0});
-  if (!ImGui::BeginPopupModal("Export###export", nullptr,
-                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-    return;
-  draw_file(scale);
-  draw_format(s);
-  draw_look(s);
-  if (settings_.film) draw_frames(s);
-  ImGui::Dummy({0, 4 * s});
-  wrapped_text(message_.empty() ? result_text() : message_);
-  ImGui::Dummy({0, 4 * s});
-  if (ImGui::Button(confirming_ && !message_.empty() ? "Replace" : "Export", {120 * s, 0}))
+  if (!begin_dialog("Export", "###export", 620)) return;
+  {
+    const ScopedLabelWidth wide(px(96));
+    draw_file();
+    draw_format();
+    draw_look();
+    if (settings_.film) draw_frames();
+  }
+  if (message_.empty())
+    caption(result_text());
+  else
+    wrapped_text(message_);
+  const bool replaces = confirming_ && !message_.empty();
+  const float width = px(112);
+  begin_dialog_buttons(2 * width + px(8));
+  if (button("Cancel", ButtonKind::secondary, width) || escape_pressed()) open_ = false;
+  ImGui::SameLine(0, px(8));
+  if (button(replaces ? "Replace" : "Export", replaces ? ButtonKind::danger : ButtonKind::primary,
+             width))
     accept();
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed()) open_ = false;
   if (!open_ || chooser_.open()) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  end_dialog();
 }
 
 }  // namespace holomorph

@@ -38,13 +38,13 @@ class ExportDialog {
   void forget() { last_.reset(); }
   bool has_exported() const { return last_.has_value(); }
   bool open() const { return open_; }
-  void draw(double scale);
+  void draw();
 
  private:
-  void draw_file(double scale);
-  void draw_format(float s);
-  void draw_look(float s);
-  void draw_frames(float s);
+  void draw_file();
+  void draw_format();
+  void draw_look();
+  void draw_frames();
   std::string result_text() const;
   std::optional<Box> region_box() const;
   std::vector<Path> files() const;

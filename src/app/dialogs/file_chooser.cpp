@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "app/look/controls.h"
+#include "app/look/surfaces.h"
 #include "scene/formats/image.h"
 #include "system/process.h"
 
@@ -98,21 +100,17 @@ void FileChooser::use_native_answer() {
   browser_.say(problem);
 }
 
-void FileChooser::draw(double scale) {
-  if (!native_) return browser_.draw(scale);
+void FileChooser::draw() {
+  if (!native_) return browser_.draw();
   // The window is still drawn but accepts no input until the desktop's dialog is closed.
-  ImGui::OpenPopup("###native");
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal("Choose a file in the other window###native", nullptr,
-                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-    return;
+  if (!begin_dialog("Choose a file in the other window", "###native", 400)) return;
   ImGui::TextUnformatted(question_.title.c_str());
-  const bool cancelled = ImGui::Button("Cancel", {120 * static_cast<float>(scale), 0}) ||
+  begin_dialog_buttons(px(96));
+  const bool cancelled = button("Cancel", ButtonKind::secondary, px(96)) ||
                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)),
              ended = native_->ended();
   if (cancelled || ended) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  end_dialog();
   if (cancelled)
     native_.reset();
   else if (ended)

@@ -15,7 +15,7 @@ class FileChooser {
   using Answer = FileDialog::Answer;
 
   /// `wake` is called on another thread when the desktop's dialog has been answered.
-  explicit FileChooser(std::function<void()> wake) : wake_(std::move(wake)) {}
+  explicit FileChooser(std::function<void()> wake) : browser_(wake), wake_(std::move(wake)) {}
 
   /// Questions that ask for more than a file name always use the browser.
   void ask(FileQuestion question, Answer answer);
@@ -28,8 +28,11 @@ class FileChooser {
   }
   void start_in(const Path& folder) { browser_.start_in(folder); }
   const Path& folder() const { return browser_.folder(); }
+  void set_places(const Path& scene_folder, std::vector<Path> recent_folders) {
+    browser_.set_places(scene_folder, std::move(recent_folders));
+  }
   bool open() const { return browser_.open() || native_; }
-  void draw(double scale);
+  void draw();
   /// Whether to use the desktop's dialogs.
   void use_native(bool use) { uses_native_ = use; }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/thumbnails.h"
 #include "system/file.h"
 
 namespace holomorph {
@@ -29,15 +30,23 @@ class FileDialog {
   /// Uses the chosen path. Returns "", or an error message, which keeps the dialog open.
   using Answer = std::function<std::string(const Path& path, double scale)>;
 
+  /// `wake` is called on another thread when a thumbnail is ready.
+  explicit FileDialog(std::function<void()> wake) : thumbnails_(std::move(wake)) {}
+
   void ask(FileQuestion question, Answer answer);
   /// Sets the folder for questions without `start`.
   void start_in(const Path& folder) { folder_ = folder; }
   const Path& folder() const { return folder_; }
   bool open() const { return open_; }
+  /// Sets the folders to list as places: that of the scene, and those of the recent files.
+  void set_places(const Path& scene_folder, std::vector<Path> recent_folders) {
+    scene_folder_ = scene_folder;
+    recent_folders_ = std::move(recent_folders);
+  }
   /// Shows a message below the name, for example why the last answer was rejected.
   void say(const std::string& message) { message_ = message; }
   /// Draws the dialog while it is open.
-  void draw(double scale);
+  void draw();
 
  private:
   void enter(const Path& folder);
@@ -49,14 +58,33 @@ class FileDialog {
   Answer answer_;
   unsigned questions_ = 0;  ///< number of questions asked so far
   bool open_ = false, opening_ = false, confirming_ = false, focus_ = false;
-  Path folder_;
+  Path folder_, scene_folder_;
+  std::vector<Path> recent_folders_;
   std::string name_, message_;
   double picture_scale_ = 1;
   struct Item {
     Path path;
-    bool folder;
+    bool folder = false;
+    std::filesystem::file_time_type time{};
+    std::uintmax_t size = 0;
   };
+  enum class Order { name, time, size };
+  void sort();
+  /// What a click led to: another folder to list, or a file that was chosen.
+  struct Clicked {
+    std::optional<Path> folder, file;
+  };
+  void draw_places(Clicked& clicked);
+  void draw_path(Clicked& clicked);
+  void draw_titles();
+  void draw_item(size_t number, Clicked& clicked);
+  void draw_list(Clicked& clicked, float below);
+
   std::vector<Item> items_;
+  Order order_ = Order::name;
+  bool descending_ = false;
+  std::string typed_folder_;
+  Thumbnails thumbnails_;
 };
 
 }  // namespace holomorph

@@ -3,9 +3,11 @@
 
 #include <imgui.h>
 
+#include <cmath>
 #include <utility>
 
-#include "app/panels/panels.h"
+#include "app/look/controls.h"
+#include "app/look/surfaces.h"
 
 namespace holomorph {
 namespace {
@@ -40,33 +42,31 @@ std::string Jobs::finish() {
   return "";
 }
 
-void Jobs::draw(double scale) {
+void Jobs::draw() {
   std::erase_if(abandoned_, [](const auto& job) { return job->ended(); });
   if (!job_) return;
-  constexpr const char* kId = "###job";
-  const float s = static_cast<float>(scale);
-  ImGui::OpenPopup(kId);
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal((job_->title() + kId).c_str(), nullptr,
-                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-    return;
+  if (!begin_dialog(job_->title(), "###job", 420)) return;
   const int done = job_->done(), all = job_->all();
+  const ThemeColors& c = theme_colors();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, tall = px(4);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + width, at.y + tall}, faded(c.edge), tall / 2);
+  float from = 0, to = 0;
   if (all > 0) {
-    const std::string text = std::to_string(done) + " of " + std::to_string(all);
-    ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(all), {360 * s, 0},
-                       text.c_str());
+    to = static_cast<float>(done) / static_cast<float>(all);
   } else {
     // The duration is unknown, so a light moves back and forth.
-    const float t = static_cast<float>(std::fmod(ImGui::GetTime(), 2.0)), at = t < 1 ? t : 2 - t;
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    ImGui::ProgressBar(0, {360 * s, 0}, "");
-    const float height = ImGui::GetFrameHeight(), width = 70 * s, left = at * (360 * s - width);
-    ImGui::GetWindowDrawList()->AddRectFilled(
-        {corner.x + left, corner.y}, {corner.x + left + width, corner.y + height},
-        ImGui::GetColorU32(ImGuiCol_PlotHistogram), ImGui::GetStyle().FrameRounding);
+    const float t = static_cast<float>(std::fmod(ImGui::GetTime(), 2.0));
+    from = 0.8f * (t < 1 ? t : 2 - t);
+    to = from + 0.2f;
   }
-  const bool cancel = ImGui::Button("Cancel", {120 * s, 0}) || escape_pressed();
+  list.AddRectFilled({at.x + from * width, at.y}, {at.x + to * width, at.y + tall},
+                     faded(c.accent_fill), tall / 2);
+  ImGui::Dummy({width, tall});
+  caption(all > 0 ? std::to_string(done) + " of " + std::to_string(all) : "Please wait.");
+  begin_dialog_buttons(px(96));
+  const bool cancel = button("Cancel", ButtonKind::secondary, px(96)) || escape_pressed();
   if (cancel) {
     abandon();
     workspace_.messages.say("Canceled.");
@@ -74,7 +74,7 @@ void Jobs::draw(double scale) {
     workspace_.messages.complain(finish());
   }
   if (!job_) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  end_dialog();
 }
 
 }  // namespace holomorph

@@ -20,7 +20,7 @@ class Jobs {
   bool running() const { return job_ != nullptr; }
   /// Draws the running job's dialog, and calls `then` once the work has ended. `then` may start
   /// another job.
-  void draw(double scale);
+  void draw();
 
  private:
   void abandon();

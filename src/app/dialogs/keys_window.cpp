@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "app/look/controls.h"
-#include "app/panels/panels.h"
+#include "app/look/surfaces.h"
 #include "edit/actions/icons.h"
+#include "edit/workspace.h"
 #include "system/new_file.h"
 #include "system/text.h"
 
@@ -95,7 +96,7 @@ void KeysWindow::import_keys() {
   });
 }
 
-void KeysWindow::draw_row(const Action& action, float s) {
+void KeysWindow::draw_row(const Action& action) {
   ImGui::TableNextRow();
   ImGui::PushID(action.id.c_str());
   ImGui::TableNextColumn();
@@ -103,18 +104,17 @@ void KeysWindow::draw_row(const Action& action, float s) {
   const std::string keys = !waits         ? action.keys.empty() ? "None" : keys_text(action)
                                    : pending_key_ ? text_of(*pending_key_) + " again to reassign it"
                                           : "Press a key (Del: none, Esc: cancel)";
-  if (ImGui::Button((keys + "###keys").c_str(), {-34 * s, 0})) {
+  if (small_button(keys + "###keys", waits ? ButtonKind::primary : ButtonKind::secondary)) {
     stop_waiting();
     if (!waits) waiting_ = action.id;
     adds_key_ = ImGui::GetIO().KeyShift;
   }
   if (workspace_.actions.has_own_keys(action)) {
-    ImGui::SameLine(0, 4 * s);
+    ImGui::SameLine(0, px(4));
     if (icon_button("reset", icon_named("reset"), "Restore the default keys")) {
       stop_waiting();
       report_lost_keys(workspace_.actions.reset_keys(action.id));
     }
-    tooltip("Restore the default keys");
   }
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
@@ -125,7 +125,7 @@ void KeysWindow::draw_row(const Action& action, float s) {
   ImGui::PopID();
 }
 
-bool KeysWindow::draw_keys(float s) {
+bool KeysWindow::draw_keys() {
   const auto is_found = [&](const Action& action) {
     return has_words(action.label + " " + action.hint + " " + keys_text(action), search_);
   };
@@ -134,18 +134,18 @@ bool KeysWindow::draw_keys(float s) {
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
   for (const Action& action : workspace_.actions.rows())
-    if (is_found(action)) draw_row(action, s);
+    if (is_found(action)) draw_row(action);
   ImGui::EndTable();
   return true;
 }
 
-bool KeysWindow::draw_gestures(float s) {
+bool KeysWindow::draw_gestures() {
   const auto is_found = [&](const Gesture& gesture) {
     return has_words(std::string(gesture.what) + " " + gesture.does, search_);
   };
   if (std::ranges::none_of(gestures(), is_found)) return false;
-  ImGui::Dummy({0, 8 * s});
-  ImGui::TextDisabled("Mouse");
+  ImGui::Dummy({0, px(8)});
+  muted_text("Mouse");
   if (!ImGui::BeginTable("mouse", 2, ImGuiTableFlags_RowBg)) return true;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
@@ -159,44 +159,51 @@ bool KeysWindow::draw_gestures(float s) {
   return true;
 }
 
-void KeysWindow::draw(double scale) {
+void KeysWindow::draw() {
   if (!open_ || chooser_.open()) return;
-  const float s = static_cast<float>(scale);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(800 * s, display.x - 20), std::min(640 * s, display.y - 40)});
-  ImGui::Begin(
-      "Keys and mouse", &open_,
-      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize);
-  if (std::exchange(opening_, false)) {
-    ImGui::SetWindowFocus();
-    ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextWindowSize(
+      {std::min(px(800), display.x - px(16)), std::min(px(640), display.y - px(40))});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(24), px(20)});
+  begin_floating("Keys and mouse", {display.x / 2, display.y / 2}, {0.5f, 0.5f});
+  ImGui::PopStyleVar();
+  const bool opens = std::exchange(opening_, false);
+  if (opens) ImGui::SetWindowFocus();
+  const ImVec2 at = ImGui::GetCursorPos();
+  const float side = px(28), room = ImGui::GetContentRegionAvail().x;
+  {
+    const ScopedFont title(Type::title);
+    ImGui::TextUnformatted("Keys and mouse");
   }
-  ImGui::SetNextItemWidth(-340 * s);
-  ImGui::InputTextWithHint("##search", "Search actions and keys", &search_);
+  const ImVec2 below = ImGui::GetCursorPos();
+  ImGui::SetCursorPos({at.x + room - side, at.y - px(4)});
+  if (icon_button("Close", icon_named("close"), "Close")) open_ = false;
+  ImGui::SetCursorPos(below);
+  if (opens) ImGui::SetKeyboardFocusHere();
+  text_field("##search", search_, "Search actions and keys", room - px(320));
   if (ImGui::IsItemActive()) stop_waiting();  // typed text must not be assigned as a key
   ImGui::SameLine();
-  if (ImGui::Button("Export...", {100 * s, 0})) export_keys();
+  if (small_button("Export...")) export_keys();
   ImGui::SameLine();
-  if (ImGui::Button("Import...", {100 * s, 0})) import_keys();
+  if (small_button("Import...")) import_keys();
   ImGui::SameLine();
   ImGui::BeginDisabled(workspace_.actions.changed_keys().empty());
-  if (ImGui::Button("Reset all", {-1, 0})) {
+  if (small_button("Reset all", ButtonKind::flat_danger)) {
     stop_waiting();
     workspace_.actions.use_keys({});
     changed_();
   }
   ImGui::EndDisabled();
   begin_part("rows");
-  ImGui::TextDisabled("Click a key to change it. Shift-click to add one.");
-  const bool any = draw_keys(s), more = draw_gestures(s);
-  if (!any && !more) ImGui::TextDisabled("Nothing found.");
+  muted_text("Click a key to change it. Shift-click to add one.");
+  const bool any = draw_keys(), more = draw_gestures();
+  if (!any && !more) muted_text("Nothing found.");
   ImGui::EndChild();
   const bool escaped = escape_pressed() && !was_waiting_;
   was_waiting_ = waits_for_key();
   if (escaped) open_ = false;
   if (!open_) stop_waiting();
-  ImGui::End();
+  end_card();
 }
 
 }  // namespace holomorph

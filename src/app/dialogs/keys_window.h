@@ -18,13 +18,13 @@ class KeysWindow {
   bool waits_for_key() const { return !waiting_.empty(); }
   /// Assigns a key. If the key belongs to another action, it must be pressed twice.
   void take(const Shortcut& key);
-  void draw(double scale);
+  void draw();
 
  private:
-  void draw_row(const Action& action, float s);
+  void draw_row(const Action& action);
   /// Both functions return whether anything matches the search.
-  bool draw_keys(float s);
-  bool draw_gestures(float s);
+  bool draw_keys();
+  bool draw_gestures();
   void export_keys();
   void import_keys();
   void assign(const std::vector<Shortcut>& keys);

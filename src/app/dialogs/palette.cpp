@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/look/controls.h"
+#include "app/look/surfaces.h"
 #include "edit/actions/icons.h"
 #include "edit/edits/edits.h"
 #include "edit/edits/method_edits.h"
@@ -84,21 +85,20 @@ void Palette::show() {
   chosen_ = 0;
 }
 
-PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double scale) {
+PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences) {
   PanelAnswer answer;
   if (!open_) return answer;
-  const float s = static_cast<float>(scale);
+  const ThemeColors& c = theme_colors();
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, 80 * s}, ImGuiCond_Always, {0.5f, 0.0f});
   ImGui::SetNextWindowSize(
-      {std::min(560 * s, display.x - 40), std::min(400 * s, display.y - 120 * s)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::Begin("Find an action", nullptr, kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
+      {std::min(px(560), display.x - px(40)), std::min(px(408), display.y - px(112))});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(8), px(8)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(c.raised));
+  begin_floating("Find an action", {display.x / 2, px(64)}, {0.5f, 0.0f});
+  ImGui::PopStyleColor();
   ImGui::PopStyleVar();
   if (std::exchange(opening_, false)) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputTextWithHint("##palette", "Type what you want to do", &text_,
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = text_field("##palette", text_, "Type what you want to do", -1);
   if (ImGui::IsItemEdited()) chosen_ = 0;
   std::vector<Row> rows = rows_of(workspace, preferences, answer);
   std::erase_if(rows,
@@ -109,29 +109,34 @@ PanelAnswer Palette::draw(Workspace& workspace, Preferences& preferences, double
   const int step = pressed(ImGuiKey_DownArrow) ? 1 : pressed(ImGuiKey_UpArrow) ? -1 : 0;
   chosen_ = std::clamp(chosen_ + step, 0, std::max(0, static_cast<int>(rows.size()) - 1));
   const Row* run = nullptr;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   ImGui::BeginChild("rows");
   for (size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     const bool chosen = static_cast<int>(i) == chosen_;
     ImGui::BeginDisabled(!row.enabled);
-    ImGui::PushStyleColor(ImGuiCol_Text, row.checked ? ImGui::GetColorU32(ImGuiCol_Text) : 0);
-    ImGui::TextUnformatted(icon_named("check"));  // a check mark, invisible if the row is not checked
-    ImGui::PopStyleColor();
-    ImGui::SameLine(24 * s);
-    if (ImGui::Selectable((row.label + "###" + row.label).c_str(), chosen)) run = &row;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = px(28);
+    if (ImGui::Selectable(("###" + row.label).c_str(), chosen, 0, {width, height})) run = &row;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float middle = at.y + height / 2, y = middle - font(Type::body)->FontSize / 2;
+    if (row.checked)
+      draw_icon(list, icon_named("check"), {at.x + px(14), middle}, c.accent, Type::caption);
+    draw_text(list, Type::body, {at.x + px(28), y}, c.text, row.label);
+    if (!row.keys.empty())
+      draw_text(list, Type::body, {at.x + width - text_size(Type::body, row.keys).x - px(8), y},
+                c.muted, row.keys);
     ImGui::EndDisabled();
     if (chosen && step != 0) ImGui::SetScrollHereY();
     if (chosen && entered && row.enabled) run = &row;
-    if (row.keys.empty()) continue;
-    ImGui::SameLine(ImGui::GetWindowWidth() - 150 * s);
-    ImGui::TextDisabled("%s", row.keys.c_str());
   }
-  if (rows.empty()) ImGui::TextDisabled("Nothing found.");
+  if (rows.empty()) muted_text("Nothing found.");
   ImGui::EndChild();
+  ImGui::PopStyleVar();
   const bool left =
       pressed(ImGuiKey_Escape) ||
       (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows));
-  ImGui::End();
+  end_card();
   open_ = !run && !left;
   opening_ = open_ && entered;  // keeps the focus on the field if Enter did not close the palette
   if (run) run->run();

@@ -10,7 +10,7 @@ class Palette {
  public:
   void show();
   bool open() const { return open_; }
-  PanelAnswer draw(Workspace& workspace, Preferences& preferences, double scale);
+  PanelAnswer draw(Workspace& workspace, Preferences& preferences);
 
  private:
   std::string text_;

@@ -12,6 +12,7 @@ struct Question {
   struct Answer {
     std::string label;
     std::function<void()> act;
+    bool destroys = false;  ///< work is lost
   };
   std::string title, text;
   std::vector<Answer> answers;
@@ -29,7 +30,7 @@ class Questions {
   std::string title() const { return open_ ? open_->title : ""; }
   void withdraw() { open_.reset(); }
   /// Draws the open question. When it is answered, calls the answer's `act`.
-  void draw(double scale);
+  void draw();
 
  private:
   std::optional<Question> open_;

@@ -32,8 +32,10 @@ Pressed press(const std::string& name, ImVec2 size) {
   return result;
 }
 
-/// The name of an item: the part of a label after its icon, and before "##".
+/// The name of an item: the part of a label after its icon, and before "##"; or a label that is not
+/// displayed, without its "##".
 std::string plain_name(const std::string& label) {
+  if (label.starts_with("##")) return label.substr(2);
   std::string name = label.substr(0, label.find("##"));
   if (name.size() > 3 && static_cast<unsigned char>(name[0]) == 0xee)
     name.erase(0, name.find_first_not_of(' ', 3));
@@ -195,12 +197,12 @@ bool begin_dropdown(const std::string& name, const std::string& preview, float w
   if (width <= 0) width = ImGui::GetContentRegionAvail().x;
   ImGui::SetNextItemWidth(width);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(4), px(4)});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {px(8), 0});
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetFrameHeight();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const bool open = ImGui::BeginCombo(
       name.c_str(), "", ImGuiComboFlags_HeightLargest | ImGuiComboFlags_NoArrowButton);
+  ImGui::PopStyleVar();
   const bool hovered = ImGui::IsMouseHoveringRect(at, at + ImVec2(width, height));
   const float y = at.y + (height - font(Type::body)->FontSize) / 2;
   list.PushClipRect(at, at + ImVec2(width - px(24), height), true);
@@ -211,9 +213,9 @@ bool begin_dropdown(const std::string& name, const std::string& preview, float w
   if (!open) {
     draw_focus_ring(px(4));
     name_item(plain_name(name));
-    ImGui::PopStyleVar(2);
     return false;
   }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {px(8), 0});
   const ImVec2 from = ImGui::GetWindowPos(), to = from + ImGui::GetWindowSize();
   draw_shadow(*ImGui::GetWindowDrawList(), from, to, px(12), 0.32f);
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
@@ -241,8 +243,8 @@ bool dropdown_row(const std::string& label, bool chosen, bool enabled) {
 }
 
 void end_dropdown() {
+  ImGui::PopStyleVar();
   ImGui::EndCombo();
-  ImGui::PopStyleVar(2);
 }
 
 bool button(const std::string& label, ButtonKind kind, float width) {
@@ -293,7 +295,9 @@ bool begin_section(const std::string& title, const std::string& state, ImU32 sta
   const std::string shown = plain_name(title);
   if (item.pressed) open = !open;
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect({at.x - pad, at.y - 1}, {at.x + width + pad, at.y + height}, false);
   list.AddLine({at.x - pad, at.y}, {at.x + width + pad, at.y}, faded(c.line));
+  list.PopClipRect();
   const float middle = at.y + height / 2;
   draw_text(list, Type::strong, {at.x, middle - font(Type::strong)->FontSize / 2}, c.text, shown);
   draw_icon(list, open ? icon_named("down") : icon_named("right"),

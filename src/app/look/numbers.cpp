@@ -142,7 +142,7 @@ Change number_field(const std::string& name, double& value, const Number& number
           (number.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));
   ImGui::PopStyleColor(2);
   const Change change = change_of_item(changed);
-  name_item(name);
+  name_item(name.starts_with("##") ? name.substr(2) : name);
   if (!types) {
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -43,14 +43,26 @@ void end_panel() {
   ImGui::PopStyleVar();
 }
 
-void begin_card(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flags) {
+namespace {
+
+void begin_surface(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flags) {
   const float alpha = appearance(ImHashStr(name));
   ImGui::SetNextWindowPos({std::round(at.x), std::round(at.y)}, ImGuiCond_Always, pivot);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * alpha);
-  ImGui::Begin(name, nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize | flags);
+  ImGui::Begin(name, nullptr, flags);
   shade_window(px(16), 0.32f);
+}
+
+}  // namespace
+
+void begin_card(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flags) {
+  begin_surface(name, at, pivot, kPanel | ImGuiWindowFlags_AlwaysAutoResize | flags);
+}
+
+void begin_floating(const char* name, ImVec2 at, ImVec2 pivot) {
+  begin_surface(name, at, pivot, kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
 }
 
 void end_card() {

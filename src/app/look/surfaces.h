@@ -29,6 +29,9 @@ inline bool begin_part(const char* id, ImVec2 size = {0, 0}, bool border = false
 /// fractions of its size, is placed at `at`, in window px.
 void begin_card(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flags = 0);
 void end_card();
+/// Like begin_card, for a window in front of the panels whose size is set before. End it with
+/// end_card().
+void begin_floating(const char* name, ImVec2 at, ImVec2 pivot);
 
 /// Begins a dialog in the middle of the window, with a flat title, a shadow and darkness behind;
 /// call end_dialog() if this returns true. `width` in units; height 0 fits the contents.

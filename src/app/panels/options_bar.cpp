@@ -316,6 +316,10 @@ Options options_of(Workspace& workspace) {
   switch (workspace.tools.active) {
     case ToolId::pin:
       options = {icon_named("pin"), "Pin", {}};
+      if (workspace.actions.named("edit.hold_rest").enabled(workspace))
+        groups.push_back({"hold", [&workspace] {
+                            action_option("edit.hold_rest", "Hold the rest", workspace);
+                          }});
       add_pin_groups(groups, workspace);
       groups.push_back({"mesh", [&workspace] { action_option("view.mesh", "Mesh", workspace); }});
       reset();
@@ -355,9 +359,10 @@ Options options_of(Workspace& workspace) {
         add_cage_point_groups(groups, workspace);
       }
       add_drag_groups(groups, workspace);
-      groups.push_back(
-          {"overlays", [&workspace] { action_option("view.overlays", "Cage and pins", workspace); }});
-      if (has_cage(workspace)) reset();
+      if (workspace.selection.empty())
+        groups.push_back({"nothing", [] { inline_label("Nothing selected"); }});
+      else
+        reset();
       break;
   }
   return options;

@@ -172,14 +172,22 @@ void draw_recent(const Preferences& preferences, Thumbnails& thumbnails, PanelAn
 void draw_samples(Samples& samples, Workspace& workspace, PanelAnswer& answer) {
   heading("Samples");
   const float gap = px(16);
-  const Columns columns = columns_of(ImGui::GetContentRegionAvail().x, px(160), gap, 5);
-  const ImVec2 size(columns.width, std::floor(0.8f * columns.width));
   const std::vector<Sample>& all = samples.shown();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  // The largest tiles of which all rows fit into the window.
+  Columns columns;
+  ImVec2 size;
+  for (size_t count = 3; count <= 6; ++count) {
+    columns = {count, std::floor((room.x + gap) / static_cast<float>(count)) - gap};
+    size = {columns.width, std::floor(0.8f * columns.width)};
+    const size_t rows = (all.size() + count) / count;
+    if (columns.width < px(176) || static_cast<float>(rows) * (size.y + px(60)) < room.y) break;
+  }
   std::optional<size_t> hovered;
   for (size_t i = 0; i < all.size(); ++i) {
     if (i % columns.count > 0) ImGui::SameLine(0, gap);
     ImGui::PushID(static_cast<int>(1000 + i));
-    const Tile tile{"sample", all[i].title, all[i].text, samples.picture(i), samples.progress(i)};
+    const Tile tile{"sample", all[i].title, all[i].line, samples.picture(i), samples.progress(i)};
     const auto [clicked, over] = draw_tile(tile, size);
     if (clicked) answer.sample = all[i].scene;
     if (over) hovered = i;

@@ -39,7 +39,13 @@ void make_box(Workspace& w) {
   const Image& image = *w.document.image();
   const double width = image.width, height = image.height;
   const Points corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
-  if (!w.commit("Place picture", with_cage(w.shown.own(), corners), EditBase::document)) return;
+  Scene scene = with_deformation(
+      w.document.scene(), with_method_for(with_cage(w.shown.own(), corners), MethodUse::cage));
+  // The original behind a picture fills the gaps of bent parts. Behind a moved picture, it would be
+  // a second one.
+  if (scene.layers.size() == 1 && scene.background.fill == Background::Fill::original)
+    scene.background.fill = Background::Fill::transparent;
+  if (!w.commit_layers("Place picture", std::move(scene))) return;
   w.mode = EditMode::pose;
   w.tools.active = ToolId::select;
   const std::vector<Handle> all = handles_of(w.shown.deformation(), w.mode);

@@ -2,6 +2,7 @@
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "edit/edits/method_edits.h"
+#include "edit/hold_rest.h"
 
 namespace holomorph {
 namespace {
@@ -287,6 +288,14 @@ std::vector<Action> edit_actions() {
           .keys = {{Key::page_down, kShift}},
           .enabled = has_pin,
           .run = change_depth<-1>,
+      },
+      {
+          .id = "edit.hold_rest",
+          .label = "Hold the rest",
+          .hint = "One pin moves the whole picture. Set more pins, far from it",
+          .icon = icon_named("pin"),
+          .enabled = can_hold_rest,
+          .run = hold_rest,
       },
       {
           .id = "edit.free_angle",

@@ -76,7 +76,7 @@ const std::vector<MenuItem>& menus() {
           {"edit.delete_plain"},
           {"cage.fill"}}},
         {"Pins",
-         {{"edit.pin_up"}, {"edit.pin_down"}, separator, {"edit.free_angle"}, {"cage.bake"}}},
+         {{"edit.hold_rest"}, separator, {"edit.pin_up"}, {"edit.pin_down"}, separator, {"edit.free_angle"}, {"cage.bake"}}},
         {"Remove", {{"edit.remove_stiffness"}, {"edit.remove_outline"}}},
         {"Iterations", {{"map.play"}, {"map.step"}, {"map.restart"}}}}},
       {"Time",

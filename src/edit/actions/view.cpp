@@ -128,6 +128,7 @@ std::vector<Action> view_actions() {
       {
           .id = "view.mesh",
           .label = "Mesh",
+          .icon = icon_named("mesh"),
           .keys = {'M'},
           .enabled = has_cage,
           .run = [](Workspace& w) { w.display.show_mesh = !w.display.show_mesh; },
@@ -153,6 +154,7 @@ std::vector<Action> view_actions() {
       {
           .id = "view.overlays",
           .label = "Cage and pins",
+          .icon = icon_named("cage"),
           .keys = {'0'},
           .enabled = always,
           .run = [](Workspace& w) { w.display.show_cage = !w.display.show_cage; },

@@ -2,6 +2,7 @@
 // pin selects it.
 #include "core/geometry/polyline.h"
 #include "edit/actions/actions.h"
+#include "edit/hold_rest.h"
 #include "edit/picture_cage.h"
 #include "edit/tools/handle_tool.h"
 
@@ -52,6 +53,9 @@ class PinTool final : public HandleTool {
                  : needs_a_cage(workspace, "Pins need a cage");
     if (ring_.hovered() && !hover_)
       return "Drag the ring to rotate the picture around the pin; scroll on it to scale";
+    if (can_hold_rest(workspace) && !drag_.active())
+      return "One pin moves the whole picture. Click parts that should stay, or press 'Hold the "
+             "rest'";
     return hover_ ? "Drag to move; Alt-click to delete"
                   : "Click the picture to set a pin, then drag it";
   }

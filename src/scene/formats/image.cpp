@@ -92,6 +92,12 @@ void append_to(void* bytes, void* data, int size) {
 
 }  // namespace
 
+bool is_opaque(const Image& image) {
+  for (size_t i = 3; i < image.pixels.size(); i += 4)
+    if (image.pixels[i] < 255) return false;
+  return true;
+}
+
 std::string encode_png(const Image& image) {
   std::string bytes;
   if (!stbi_write_png_to_func(append_to, &bytes, image.width, image.height, 4, image.pixels.data(),

@@ -55,6 +55,9 @@ inline Image decode_image(const std::string& bytes, const std::string& name) {
 /// The extensions of the files that decode_image can read, in lower case and with the dot.
 const std::vector<std::string>& picture_extensions();
 
+/// Whether no pixel is transparent, not even partly.
+bool is_opaque(const Image& image);
+
 /// The bytes of a PNG file.
 std::string encode_png(const Image& image);
 
