@@ -67,7 +67,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"error", map.error().has_value()},
       {"status", name_of(map.map().status)},
       {"boundary_turns", map.injectivity().turning_number},
-      {"folds", map.injectivity().folds()},
+      {"folds", !workspace.folds().empty()},
       {"zeros", map.map().zeros.size()},
       {"iteration", map.map().iterations},
       {"iterations", map.map().energies.size()},

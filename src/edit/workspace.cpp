@@ -247,6 +247,10 @@ bool Workspace::update_map(EvalOptions options) {
   const bool others = maps.update_others(document.scene(), shown.moment_of_layers());
   const bool changed =
       map().update(shown.preview ? *shown.preview : own, options, shown.moment()) || others;
+  if (changed || fold_layer_ != document.scene().layer().id) {
+    fold_layer_ = document.scene().layer().id;
+    fold_finder_.update(map(), document.pictures().shared(document.scene().layer()));
+  }
   if (shown.preview) shown.timeline.playing = false;
   if (shown.preview) return changed;  // a preview already has the handles at the displayed time
   if (!own.keyframes.empty()) map().follow_keys();  // edits and the onion skin need their maps
@@ -310,21 +314,31 @@ void Workspace::go_to(size_t entry) {
   prune_selection();
 }
 
+std::optional<Complex> Workspace::overlap() const {
+  const bool has_depths = std::ranges::any_of(shown.deformation().pins,
+                                              [](const Pin& pin) { return pin.depth != 0; });
+  return has_depths || !map().has_map() ? std::nullopt : map().injectivity().crossing;
+}
+
 void Workspace::show_next_fold() {
-  const Injectivity& found = map().injectivity();
-  if (found.folds_at.empty()) {
-    if (!found.crossing) return messages.say("Nothing folds.");
-    display.viewport.center = *found.crossing;
-    return messages.say("No folds, but two parts overlap here.", found.crossing);
+  if (folds().empty()) {
+    const std::optional<Complex> overlaps = overlap();
+    if (!overlaps) return messages.say("Nothing folds.");
+    display.viewport.center = *overlaps;
+    return messages.say("No folds, but two parts overlap here.", overlaps);
   }
-  fold_ = folds_ == found.folds_at ? (fold_ + 1) % folds_.size() : 0;
-  folds_ = found.folds_at;
+  Points all;
+  for (const Fold& each : folds()) all.push_back(each.at);
+  fold_ = visited_folds_ == all ? (fold_ + 1) % all.size() : 0;
+  visited_folds_ = std::move(all);
   mode = EditMode::pose;
-  display.viewport.center = folds_[fold_];
-  const std::string number = folds_.size() == 1 ? ""
-                                                : " (" + std::to_string(fold_ + 1) + " of " +
-                                                      std::to_string(folds_.size()) + ")";
-  messages.complain("The picture folds over itself here" + number + ".", folds_[fold_]);
+  const Complex at = visited_folds_[fold_];
+  display.viewport.center = at;
+  const std::string number = visited_folds_.size() == 1
+                                 ? ""
+                                 : " (" + std::to_string(fold_ + 1) + " of " +
+                                       std::to_string(visited_folds_.size()) + ")";
+  messages.complain("The picture folds over itself here" + number + ".", at);
 }
 
 void Workspace::perform(const std::string& title, const Job::Work& work,

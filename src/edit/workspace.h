@@ -9,6 +9,7 @@
 #include "edit/messages.h"
 #include "edit/shown.h"
 #include "edit/viewport.h"
+#include "edit/visible_folds.h"
 #include "scene/auto_cage.h"
 #include "scene/layer_maps.h"
 #include "system/job.h"
@@ -111,6 +112,10 @@ struct Workspace {
   const LiveMap& map() const { return maps.of(document.scene().layer().id); }
   /// Brings the maps up to date with `shown`. Returns whether any of them changed.
   bool update_map(EvalOptions options);
+  /// The visible folds of the edited layer's map.
+  const std::vector<Fold>& folds() const { return fold_finder_.folds(); }
+  /// A point where parts overlap without a fold, unless pins have depths that say which is on top.
+  std::optional<Complex> overlap() const;
   /// Whether the canvas shows the picture at rest.
   bool at_rest() const { return mode == EditMode::rest || display.show_original; }
   /// Whether the method uses an outline that is currently drawn.
@@ -187,7 +192,9 @@ struct Workspace {
   bool accepts(const Scene& scene);
 
   std::optional<Selection> mergeable_selection_;  ///< at the step that may be amended
-  Points folds_;                                  ///< the folds that show_next_fold visits
+  FoldFinder fold_finder_;
+  int fold_layer_ = 0;  ///< id of the layer whose folds are known
+  Points visited_folds_;  ///< the folds that show_next_fold visits
   size_t fold_ = 0;
 };
 

@@ -140,7 +140,8 @@ TEST_CASE("Next fold visits the worst fold first, then the others, and then star
   desk.settle();
   desk.drag({200, 200}, {150, 60});
   desk.settle();
-  const Points folds = w.map().injectivity().folds_at;
+  Points folds;
+  for (const Fold& fold : w.folds()) folds.push_back(fold.at);
   REQUIRE_FALSE(folds.empty());
   for (size_t i = 0; i <= folds.size(); ++i) {
     run("view.fold", w);

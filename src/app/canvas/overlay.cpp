@@ -356,12 +356,34 @@ void draw_handles(ImDrawList& list, const Workspace& workspace, const ToolOverla
   }
 }
 
+/// Fills the visible folds and puts a ring around each.
+void draw_folds(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
+  if (workspace.at_rest() || !workspace.map().has_map()) return;
+  const Mesh& mesh = *workspace.map().prepared()->mesh;
+  const VectorXc& f = workspace.map().map().f;
+  const float s = static_cast<float>(style.scale);
+  constexpr double kMostMarked = 20;  // a picture that folds everywhere is not marked everywhere
+  if (static_cast<double>(workspace.folds().size()) > kMostMarked) return;
+  for (const Fold& fold : workspace.folds()) {
+    for (const int t : fold.triangles) {
+      const auto [i, j, k] = mesh.triangles[static_cast<size_t>(t)];
+      list.AddTriangleFilled(px(workspace, f[i]), px(workspace, f[j]), px(workspace, f[k]),
+                             (style.colors.fold & 0x00ffffff) | 0x70000000);
+    }
+    const float radius = std::clamp(
+        static_cast<float>(fold.radius * workspace.display.viewport.zoom) + 6 * s, 10 * s, 400 * s);
+    list.AddCircle(px(workspace, fold.at), radius, style.colors.outline, 0, 3.5f * s);
+    list.AddCircle(px(workspace, fold.at), radius, style.colors.fold, 0, 1.5f * s);
+  }
+}
+
 void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   draw_onion(list, workspace, style);
   if (workspace.display.show_cage && gesture.line.empty()) {
     const CageLook look = cage_look(workspace, style);
     draw_curves(list, workspace, look, style);
+    draw_folds(list, workspace, style);
     draw_map_marks(list, workspace, style);
     draw_handles(list, workspace, gesture, look, style);
   } else if (workspace.display.show_cage && gesture.in_cage) {

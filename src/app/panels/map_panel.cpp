@@ -83,15 +83,11 @@ void convergence_section(Workspace& workspace) {
 StateText fold_state(const Workspace& workspace) {
   const ThemeColors& c = theme_colors();
   if (!workspace.map().has_map()) return {};
-  const Injectivity& found = workspace.map().injectivity();
-  if (found.folds()) {
-    const size_t count = found.folds_at.size();
-    return {found.turning_number < 0 ? "Flipped over"
-            : count > 1              ? std::to_string(count) + " folds"
-                                     : "Folds",
+  if (const size_t count = workspace.folds().size(); count > 0) {
+    const bool flipped = workspace.map().injectivity().turning_number < 0;
+    return {flipped ? "Flipped over" : count > 1 ? std::to_string(count) + " folds" : "Folds",
             c.error};
   }
-  if (found.crossing) return {"Parts overlap", c.warning};
   return {"No folds", c.success};
 }
 
@@ -100,23 +96,28 @@ void injectivity_section(Workspace& workspace) {
   if (!workspace.map().has_map()) return muted_text("There is no map yet.");
   const Injectivity& found = workspace.map().injectivity();
   const StateText state = fold_state(workspace);
-  colored_text(state.color, std::string(found.folds() || found.crossing ? icon_named("warning")
-                                                                        : icon_named("check")) +
-                                " " + state.text);
-  if (!found.folds_at.empty() || found.crossing) {
+  const auto show_me = [&](const char* label) {
     ImGui::SameLine();
-    if (small_button("Show me")) run("view.fold", workspace);
+    if (small_button(label)) run("view.fold", workspace);
     tooltip_of(workspace.actions.named("view.fold"));
+  };
+  const bool folds = !workspace.folds().empty();
+  colored_text(state.color, std::string(folds ? icon_named("warning") : icon_named("check")) + " " +
+                                state.text);
+  if (folds) show_me("Show me");
+  if (!folds && workspace.overlap()) {
+    colored_text(c.warning, "Parts overlap");
+    show_me("Show me##overlap");
   }
   const int extra_turns = static_cast<int>(std::lround(found.turning_number)) - 1;
-  if (extra_turns > 0)
+  if (folds && extra_turns > 0)
     colored_text(c.warning, "Overlaps itself at " + std::to_string(extra_turns) +
                                 (extra_turns == 1 ? " point" : " points"));
   if (const Points& marked = workspace.map().map().zeros; !marked.empty())
     caption("Would fold at " + std::to_string(marked.size()) +
             (marked.size() == 1 ? " point (diamond)" : " points (diamonds)"));
   const Action& prevents = workspace.actions.named("map.fold_free");
-  if (found.folds() && prevents.enabled(workspace) && !prevents.checked(workspace) &&
+  if (folds && prevents.enabled(workspace) && !prevents.checked(workspace) &&
       small_button(prevents.label))
     run(prevents, workspace);
   if (const auto& proved = workspace.map().map().extremes) {

@@ -103,8 +103,12 @@ void draw_scene_name(const Workspace& workspace, float menus_end, float buttons,
   if (workspace.document.empty()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float width = ImGui::GetWindowWidth();
-  const std::string name = workspace.document.title(),
-                    state = workspace.document.modified() ? "  \u2014  Edited" : "";
+  const Document& document = workspace.document;
+  const Path file = document.path().empty() ? document.first_picture() : document.path();
+  const std::string name = file.empty() ? "Untitled" : file.stem().string(),
+                    state = document.path().empty() ? "  \u2014  Not saved"
+                            : document.modified()   ? "  \u2014  Edited"
+                                                    : "";
   const float long_name = text_size(Type::strong, name).x, long_state = text_size(Type::body, state).x;
   float x = (width - long_name - long_state) / 2;
   x = std::max(x, menus_end + px(16));

@@ -129,6 +129,9 @@ bool method_card(const std::string& id, const std::string& label, const std::str
 PanelAnswer method_section(Workspace& workspace, Preferences& preferences) {
   PanelAnswer answer;
   const Method& method = chosen_method(workspace.shown.deformation());
+  // Without a cage, the first pin chooses the method.
+  const bool has_method = workspace.shown.deformation().has_cage() ||
+                          method.id != usual_method(MethodUse::cage).id;
   // "More" stands in the title's row.
   const ImVec2 below = ImGui::GetCursorPos();
   const float more = text_size(Type::strong, "More").x + px(20);
@@ -141,13 +144,13 @@ PanelAnswer method_section(Workspace& workspace, Preferences& preferences) {
   for (size_t i = 0; i < std::size(kCards); ++i) {
     const Method& each = method_named(kCards[i]);
     if (i > 0) ImGui::SameLine(0, gap);
-    if (method_card(each.id, each.label, each.id, each.id == method.id, width))
+    if (method_card(each.id, each.label, each.id, has_method && each.id == method.id, width))
       choose_method(workspace, each.id);
     tooltip(each.hint);
   }
   if (!has_card(method.id)) ImGui::TextUnformatted(method.label.c_str());
-  caption(method.summary);
-  tooltip(method.hint);
+  caption(has_method ? method.summary : "No method yet. The first pin chooses Puppet.");
+  if (has_method) tooltip(method.hint);
   if (can_prevent_folds(method)) {
     const bool prevents = prevents_folds(workspace.shown.deformation());
     const ScopedLabelWidth wide(px(112));
@@ -163,7 +166,8 @@ PanelAnswer method_section(Workspace& workspace, Preferences& preferences) {
     answer.preferences_changed = true;
   }
   if (open && has_settings) settings(workspace);
-  if (workspace.map().has_map() && !workspace.map().map().note.empty())
+  if (workspace.map().has_map() && !workspace.map().map().note.empty() &&
+      workspace.map().map().status != SampledMap::Status::certified)
     caption(workspace.map().map().note);
   return answer;
 }

@@ -94,8 +94,8 @@ void StartCard::draw_choices(Workspace& workspace, float width) {
     const Choice& choice = kChoices[i];
     if (i % 2 == 1) ImGui::SameLine(0, gap);
     const bool by_pins = workspace.tools.active == ToolId::pin;
-    const bool is_set = by_pins && (method == choice.picture ||
-                                    (i == 0 && method == usual_method(MethodUse::cage).id));
+    const bool by_default = method == usual_method(MethodUse::cage).id;  // pins make it a puppet
+    const bool is_set = by_pins && (by_default ? i == 0 : method == choice.picture);
     if (choice_card(choice, is_set, {each, tall})) choice.choose(workspace);
   }
   const ScopedLabelWidth narrow(px(56));
