@@ -159,6 +159,7 @@ Window::Window(int width, int height, double ui_scale, Theme theme, bool reduce_
   ImGui::GetIO().ConfigDragClickToInputText = true;
   ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  ImGui_ImplOpenGL3_CreateDeviceObjects();  // otherwise the first frame builds the fonts again
   set_style(ui_scale, theme, reduce_motion);
 }
 
@@ -180,6 +181,7 @@ void Window::set_style(double ui_scale, Theme theme, bool reduce_motion) {
   if (apply_theme(scale_, theme, reduce_motion)) {
     ImGui_ImplOpenGL3_DestroyFontsTexture();  // the next line rebuilds it from the new fonts
     ImGui_ImplOpenGL3_CreateFontsTexture();
+    ImGui::GetIO().Fonts->ClearTexData();  // the driver has its own copy
   }
   wake();
 }

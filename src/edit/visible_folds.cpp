@@ -107,20 +107,32 @@ std::vector<Fold> visible_folds(const Mesh& mesh, const VectorXc& f,
   return folds;
 }
 
-void FoldFinder::update(const LiveMap& map, const std::shared_ptr<const Image>& picture) {
-  folds_.clear();
-  if (!map.has_map()) return;
+const std::vector<Fold>& FoldFinder::folds(const LiveMap& map,
+                                           const std::shared_ptr<const Image>& picture) {
+  if (!map.has_map()) {
+    folds_.clear();
+    f_.resize(0);
+    return folds_;
+  }
   const std::shared_ptr<const Mesh> mesh = map.prepared()->mesh;
-  if (mesh != mesh_ || picture != picture_) {
+  const bool same_picture = mesh == mesh_ && picture == picture_;
+  if (same_picture && f_.size() == map.map().f.size() && f_ == map.map().f) return folds_;
+  if (!same_picture) {
     mesh_ = mesh;
     picture_ = picture;
     visible_ = visible_triangles(*mesh, picture.get());
   }
-  folds_ = visible_folds(*mesh, map.map().f, visible_);
+  f_ = map.map().f;
+  find(map);
+  return folds_;
+}
+
+void FoldFinder::find(const LiveMap& map) {
+  folds_ = visible_folds(*mesh_, f_, visible_);
   // Around a branch point, the picture winds more than once without a flipped triangle.
   const Injectivity& found = map.injectivity();
   if (!folds_.empty() || !found.folds() || found.folds_at.empty()) return;
-  const auto near = locate(*mesh, as_span(map.map().f), found.folds_at.front());
+  const auto near = locate(*mesh_, as_span(f_), found.folds_at.front());
   if (near && visible_[static_cast<size_t>(near->triangle)])
     folds_.push_back({found.folds_at.front(), 0, {}});
 }

@@ -26,18 +26,19 @@ std::vector<char> visible_triangles(const Mesh& mesh, const Image* picture);
 std::vector<Fold> visible_folds(const Mesh& mesh, const VectorXc& f,
                                 const std::vector<char>& visible);
 
-/// Keeps the visible folds of a map up to date.
+/// Finds the visible folds of a map, and remembers them until the map changes.
 class FoldFinder {
  public:
-  /// Finds the folds anew. Call this when the map has changed.
-  void update(const LiveMap& map, const std::shared_ptr<const Image>& picture);
-  const std::vector<Fold>& folds() const { return folds_; }
+  const std::vector<Fold>& folds(const LiveMap& map, const std::shared_ptr<const Image>& picture);
 
  private:
+  void find(const LiveMap& map);
+
   std::vector<Fold> folds_;
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const Image> picture_;
   std::vector<char> visible_;
+  VectorXc f_;  ///< the map whose folds are known
 };
 
 }  // namespace holomorph

@@ -167,17 +167,9 @@ void Workspace::leave_layer() {
 }
 
 void Workspace::choose_layer(size_t number) {
-  static const std::string kLabel = "Edit another layer";
   if (number == document.scene().edited) return;
-  Scene chosen = document.scene();
-  chosen.edited = number;
   leave_layer();
-  const History& history = document.history();
-  // Selecting several layers in a row counts as one step.
-  const bool merges = history.can_undo() && history.entries()[history.index()].label == kLabel &&
-                      !history.can_redo();
-  if (merges) document.undo();
-  commit_layers(kLabel, std::move(chosen));
+  document.select_layer(number);
 }
 
 /// Stores the deformation's pose as the keyframe at the current time, then sets the deformation's
@@ -247,10 +239,6 @@ bool Workspace::update_map(EvalOptions options) {
   const bool others = maps.update_others(document.scene(), shown.moment_of_layers());
   const bool changed =
       map().update(shown.preview ? *shown.preview : own, options, shown.moment()) || others;
-  if (changed || fold_layer_ != document.scene().layer().id) {
-    fold_layer_ = document.scene().layer().id;
-    fold_finder_.update(map(), document.pictures().shared(document.scene().layer()));
-  }
   if (shown.preview) shown.timeline.playing = false;
   if (shown.preview) return changed;  // a preview already has the handles at the displayed time
   if (!own.keyframes.empty()) map().follow_keys();  // edits and the onion skin need their maps
@@ -312,6 +300,10 @@ void Workspace::go_to(size_t entry) {
                                                  : other_cage;
   });
   prune_selection();
+}
+
+const std::vector<Fold>& Workspace::folds() const {
+  return fold_finder_.folds(map(), document.pictures().shared(document.scene().layer()));
 }
 
 std::optional<Complex> Workspace::overlap() const {

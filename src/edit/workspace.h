@@ -113,7 +113,7 @@ struct Workspace {
   /// Brings the maps up to date with `shown`. Returns whether any of them changed.
   bool update_map(EvalOptions options);
   /// The visible folds of the edited layer's map.
-  const std::vector<Fold>& folds() const { return fold_finder_.folds(); }
+  const std::vector<Fold>& folds() const;
   /// A point where parts overlap without a fold, unless pins have depths that say which is on top.
   std::optional<Complex> overlap() const;
   /// Whether the canvas shows the picture at rest.
@@ -152,7 +152,7 @@ struct Workspace {
   /// Whether the maps at keyframes are known, or cannot be. If not, a toast says that they are
   /// being prepared.
   bool require_keyframe_maps();
-  /// Makes another layer the edited layer.
+  /// Makes another layer the edited layer. This is not an undo step.
   void choose_layer(size_t number);
   /// Goes to another entry of the history. If the number of cage vertices, pins or strokes differs
   /// there, deselects all handles of that kind.
@@ -192,8 +192,7 @@ struct Workspace {
   bool accepts(const Scene& scene);
 
   std::optional<Selection> mergeable_selection_;  ///< at the step that may be amended
-  FoldFinder fold_finder_;
-  int fold_layer_ = 0;  ///< id of the layer whose folds are known
+  mutable FoldFinder fold_finder_;
   Points visited_folds_;  ///< the folds that show_next_fold visits
   size_t fold_ = 0;
 };

@@ -49,7 +49,12 @@ class Document {
   std::string name() const;
   /// The name, followed by "(not saved)" if the document has a picture but no file.
   std::string title() const;
-  bool modified() const { return unsaved_ || scene() != saved_; }
+  /// Whether there are unsaved changes. Which layer is edited does not count.
+  bool modified() const {
+    Scene now = scene();
+    now.edited = saved_.edited;
+    return unsaved_ || now != saved_;
+  }
   bool empty() const {
     return !scene().layer().image && !scene().deformation().has_cage() && !has_layers(scene()) &&
            history_.entries().size() == 1;
@@ -79,6 +84,12 @@ class Document {
   /// Replaces the scene of the current step instead of adding a step. Do not call it on the first
   /// entry.
   void amend(Scene scene) { history_.amend(std::move(scene)); }
+  /// Makes another layer the edited one. This is not a step of the history.
+  void select_layer(size_t number) {
+    Scene selected = scene();
+    selected.edited = number;
+    history_.replace(std::move(selected));
+  }
   bool undo() { return history_.undo(); }
   bool redo() { return history_.redo(); }
   void go_to(size_t entry) { history_.go_to(entry); }

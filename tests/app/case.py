@@ -52,11 +52,6 @@ class WindowCase(unittest.TestCase):
         editor.key("Return")
         editor.wait(lambda s: not s["modified"] and os.path.exists(path), "the saved scene")
 
-    def press_in_dialog(self, editor, down):
-        """Clicks at the center of the window, where dialogs are, moved down by this many pixels."""
-        editor.press(640, 400 + down)  # the window is 1280 x 800 px
-        time.sleep(0.5)
-
     def ask(self, editor, key):
         """Opens a dialog by its key. Tries again if something in progress has swallowed the key."""
         for _ in range(5):
@@ -81,6 +76,15 @@ class WindowCase(unittest.TestCase):
         time.sleep(0.3)
         editor.key("Escape")
         editor.wait(lambda s: not s["in_panel"], "the canvas with the keyboard focus")
+
+    def type_into(self, editor, name, text):
+        """Types into a number field, given by the name of its item."""
+        editor.press_item(name)
+        time.sleep(0.3)
+        editor.key("ctrl+a")
+        editor.type(text)
+        editor.key("Return")
+        time.sleep(0.3)
 
     def by_palette(self, editor, words):
         """Runs an action by name from the command palette."""

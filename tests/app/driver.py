@@ -94,6 +94,21 @@ class Editor:
         self.xdotool("click", button, pause=0.02)
         self.settle(since, 2)
 
+    def item(self, name, seconds=10):
+        """The window position of the middle of a named item, such as a button."""
+        end = time.time() + seconds
+        while time.time() < end:
+            state = self.state()
+            if state and name in state["items"] and not state["moving"]:
+                left, top, right, bottom = state["items"][name]
+                return (left + right) // 2, (top + bottom) // 2
+            time.sleep(0.03)
+        raise AssertionError(f"there is no item '{name}'; the items are {sorted((self.state() or {'items': {}})['items'])}")
+
+    def press_item(self, name):
+        """Clicks a named item, such as a button."""
+        self.press(*self.item(name))
+
     def drag(self, start, end, steps=6):
         self.move(*start)
         self.xdotool("mousedown", 1)

@@ -64,8 +64,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             self.wait_color(editor, (75, 100), RED, "the lower layer")
             editor.drop(blue, 400, 400)
-            time.sleep(0.5)
-            self.press_in_dialog(editor, -19)  # Add as a layer
+            editor.press_item("Add as a layer")
             editor.wait(lambda s: s["layers"] == 2 and s["edited_layer"] == 1, "a second layer")
             self.wait_color(editor, (75, 100), BLUE, "the upper layer")
             self.wait_color(editor, (225, 100), RED, "the lower one next to it")
@@ -197,22 +196,26 @@ class EditorWindowTest(WindowCase):
         home = self.preferences(native_dialogs=False)
         with Editor(PROGRAM, [self.picture], home=home) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")
-            time.sleep(0.5)
-            first = self.screenshot(editor, "hints-1")
-            self.by_palette(editor, "make from")
-            editor.wait(lambda s: s["cage_points"] > 0, "a cage")
-            second = self.screenshot(editor, "hints-2")
-            editor.key("ctrl+a")
-            editor.key("Up")
-            editor.wait(lambda s: s["modified"], "a pose")
-            self.save_as(editor, os.path.join(self.work, "s.json"))
-            time.sleep(5)  # until the message has disappeared
+            self.screenshot(editor, "start")
+            editor.click(600, 420)
+            editor.wait(lambda s: s["pins"] == 1 and s["method"] == "puppet", "the first pin")
+            editor.wait(lambda s: "Hold it" in s["items"], "the first step")
+            self.screenshot(editor, "hints-1")
+            editor.press_item("Hold the rest")
+            state = editor.wait(lambda s: s["pins"] > 2 and "Bend it" in s["items"], "the second step")
+            editor.drag((600, 420), (600, 480))
+            editor.wait(lambda s: "Keep it" in s["items"], "the third step")
             self.screenshot(editor, "hints-3")
-            corner = (slice(36, 110), slice(64, 400))
-            self.assertGreater((numpy.abs(first[corner] - second[corner]).max(axis=2) > 40).sum(), 40)
-            editor.press(100, 95)  # Done
-            time.sleep(0.5)
-            self.screenshot(editor, "hints-4")
+            editor.key("ctrl+z")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["pins"] == 1, "undo")
+            self.assertIn("Keep it", editor.state()["items"], "it never goes back a step")
+            target = os.path.join(self.work, "bent.png")
+            self.ask(editor, "ctrl+e")
+            editor.key("ctrl+a")
+            editor.type(target)
+            editor.key("Return")
+            editor.wait(lambda s: os.path.exists(target) and "Keep it" not in s["items"], "no card after an export")
         self.assertFalse(load(home + "/config/holomorph/preferences.json")["hints"])
 
     def test_a_held_key_stands_in_for_alt(self):
@@ -317,9 +320,8 @@ class EditorWindowTest(WindowCase):
                 editor.key(key)
                 time.sleep(0.2)
             self.screenshot(editor, "export-chosen")
-            for _ in range(2):  # past the color
-                editor.key("Down")
-            editor.key("Return")
+            for key in ("Down", "Down", "Right", "Return"):  # past the color, to the button at the right
+                editor.key(key)
             editor.wait(lambda s: os.path.exists(target), "the export")
             editor.wait(lambda s: not s["asking"], "the closed dialog")
             image = numpy.asarray(Image.open(target))
@@ -347,7 +349,7 @@ class EditorWindowTest(WindowCase):
             time.sleep(0.4)
             editor.key("F6")
             editor.wait(lambda s: s["in_panel"], "the suggestions with the keyboard focus")
-            for key in ("Right", "Right", "Right", "Return"):  # a box for moving and scaling
+            for key in ("Down", "Right", "Return"):  # Place
                 editor.key(key)
             editor.wait(lambda s: s["cage_points"] == 4 and s["selected"] == 4, "a box around the picture")
             self.type_into_inspector(editor, 4, "50")  # x, y, degrees, size
@@ -387,7 +389,7 @@ class EditorWindowTest(WindowCase):
             editor.key("Escape")
             editor.wait(lambda s: not s["asking"], "the answer")
             editor.key("F10")
-            for key in ("Right", "Right", "Right"):  # Edit, Tools, Cage
+            for key in ("Right", "Right", "Right"):  # Edit, Layer, Cage
                 editor.key(key)
                 time.sleep(0.2)
             self.screenshot(editor, "menu-cage")
@@ -497,8 +499,7 @@ class EditorWindowTest(WindowCase):
             editor.process.wait(timeout=10)
         with Editor(PROGRAM, [scene], home=home) as editor:
             editor.wait(lambda s: s["question"] == "Files from other folders", "the question again")
-            time.sleep(0.3)
-            self.press_in_dialog(editor, 30)  # Show them
+            editor.press_item("Show them")
             editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture")
             editor.key("ctrl+q")
             editor.process.wait(timeout=10)
@@ -531,8 +532,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: not s["asking"] and s["modified"], "no answer")
             editor.key("ctrl+s")
             editor.wait(lambda s: s["asking"], "the question")
-            time.sleep(0.3)
-            self.press_in_dialog(editor, 22)  # Overwrite with this version
+            editor.press_item("Overwrite with this version")
             editor.wait(lambda s: not s["modified"], "the saved scene")
             self.assertEqual(load(scene)["cage"]["rest"][0][0][0], 180)
             editor.key("Right")
@@ -540,8 +540,7 @@ class EditorWindowTest(WindowCase):
             self.change(scene, 300)
             editor.key("ctrl+s")
             editor.wait(lambda s: s["asking"], "the question")
-            time.sleep(0.3)
-            self.press_in_dialog(editor, 55)  # Reload it
+            editor.press_item("Reload the file")
             editor.wait(lambda s: s["first_point"] == [300, 100] and not s["modified"], "the file's content")
             editor.key("ctrl+z")  # reloading can be undone like any other step
             editor.wait(lambda s: s["first_point"] == [180, 100] and s["modified"], "the previous content")
@@ -553,8 +552,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["modified"] and s["first_point"] == [300, 100], "unsaved work")
             editor.key("ctrl+s")
             editor.wait(lambda s: s["asking"], "the question")
-            time.sleep(0.3)
-            self.press_in_dialog(editor, 22)  # Overwrite with this version
+            editor.press_item("Overwrite with this version")
             editor.wait(lambda s: not s["modified"], "the saved scene")
             os.remove(scene)
             editor.wait(lambda s: s["modified"], "unsaved work")

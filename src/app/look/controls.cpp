@@ -232,6 +232,7 @@ bool dropdown_row(const std::string& label, bool chosen, bool enabled) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   const bool clicked = ImGui::Selectable(("##" + label).c_str(), false, 0, {width, height});
   ImGui::PopStyleVar();
+  if (chosen) ImGui::SetItemDefaultFocus();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float middle = at.y + height / 2;
   if (chosen) draw_icon(list, icon_named("check"), {at.x + px(14), middle}, c.accent, Type::caption);

@@ -280,7 +280,7 @@ float appearance(ImGuiID id) {
   const double t = (ImGui::GetTime() - seen.since) / kFade;
   if (s.reduce_motion || t >= 1) return 1;
   s.moves = true;
-  return ease_out(t);
+  return std::max(ease_out(t), 0.01f);  // ImGui ignores windows with alpha 0
 }
 
 float eased(ImGuiID id, bool on) {

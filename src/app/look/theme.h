@@ -50,8 +50,8 @@ ImU32 faded(ImU32 color, float alpha = 1);
 ImU32 blended(ImU32 from, ImU32 to, float t);
 ImVec4 color_of(ImU32 color);
 
-/// Eases the appearance of something identified by `id`. Returns 0 in the first frame in which it
-/// is drawn, and 1 after 150 ms or with reduced motion. Starts again if it was absent for a frame.
+/// Eases the appearance of something identified by `id`. Returns nearly 0 in the first frame in
+/// which it is drawn, and 1 after 150 ms or with reduced motion. Starts again if it was absent for a frame.
 float appearance(ImGuiID id);
 /// Moves a displayed value in 0 to 1 to its goal within 150 ms.
 float eased(ImGuiID id, bool on);

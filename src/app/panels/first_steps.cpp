@@ -72,6 +72,7 @@ bool FirstSteps::draw_contents(const Workspace& workspace) const {
   {
     const ScopedFont strong(Type::strong);
     ImGui::TextUnformatted(step.what);
+    name_item(step.what);
   }
   const ImVec2 below = ImGui::GetCursorPos();
   const std::string number = std::to_string(std::min<size_t>(step_, 2) + 1) + " of 3";

@@ -82,7 +82,8 @@ bool StartCard::shows(const Workspace& workspace) const {
 }
 
 bool StartCard::has_room(const Workspace& workspace) {
-  return workspace.display.viewport.width >= static_cast<double>(width() + px(320)) &&
+  return workspace.document.scene().layers.size() == 1 &&
+         workspace.display.viewport.width >= static_cast<double>(width() + px(320)) &&
          workspace.display.viewport.height >= static_cast<double>(px(460));
 }
 
@@ -119,11 +120,10 @@ void StartCard::draw(Workspace& workspace, const OverlayStyle& style) {
     ImGui::TextUnformatted("How should it bend?");
   }
   caption("Click the picture to set a pin, or choose how it bends.");
-  const ImVec2 below = ImGui::GetCursorPos();
-  ImGui::SetCursorPos({at.x + inner - side + px(6), at.y - px(4)});
-  if (icon_button("Close", icon_named("close"), "Close this card")) closed_for_ = picture_of(workspace);
-  ImGui::SetCursorPos(below);
   draw_choices(workspace, inner);
+  ImGui::SetCursorPos({at.x + inner - side + px(6), at.y - px(4)});
+  if (icon_button("Close", icon_named("close"), "Close this card"))
+    closed_for_ = picture_of(workspace);
   end_card();
   ImGui::PopStyleVar();
 }

@@ -27,6 +27,14 @@ class RightPart {
     draw_text(*ImGui::GetWindowDrawList(), Type::caption,
               {x_, top_ + (height_ - font(Type::caption)->FontSize) / 2}, color, text);
   }
+  /// Makes what was drawn left of `end` a button.
+  bool pressed(const char* name, float end) const {
+    ImGui::SetCursorScreenPos({x_, top_});
+    const bool result = ImGui::InvisibleButton(name, {end - x_, height_});
+    name_item(name);
+    draw_focus_ring(px(4));
+    return result;
+  }
   void gap(float units = 8) { x_ -= px(units); }
   void line() {
     gap(10);
@@ -64,22 +72,26 @@ void draw_figures(RightPart& right, Workspace& workspace, const StatusLine& stat
   right.text(c.text, zoom);
   right.gap(2);
   right.action("view.zoom_out", icon_named("minus"), workspace);
-  if (status.cursor) {
-    right.line();
-    if (status.cursor_at_rest && std::abs(*status.cursor_at_rest - *status.cursor) >= 0.5) {
-      right.text(c.muted, " from " + pixels(*status.cursor_at_rest));
-    }
-    right.text(c.muted, pixels(*status.cursor));
-  }
   if (status.draft) {
     right.line();
     right.text(c.muted, "Draft");
   } else if (const StateText state = fold_state(workspace); !state.text.empty()) {
     right.line();
     const bool good = state.color == c.success;
+    const float end = right.left();
     right.text(state.color, state.text);
     right.gap(4);
     right.text(state.color, good ? icon_named("check") : icon_named("warning"));
+    if (right.pressed("fold state", end)) run("view.fold", workspace);
+    tooltip_of(workspace.actions.named("view.fold"));
+  }
+  // The position comes last, because it disappears when the pointer leaves the canvas.
+  if (status.cursor) {
+    right.line();
+    if (status.cursor_at_rest && std::abs(*status.cursor_at_rest - *status.cursor) >= 0.5) {
+      right.text(c.muted, " from " + pixels(*status.cursor_at_rest));
+    }
+    right.text(c.muted, pixels(*status.cursor));
   }
 }
 

@@ -214,6 +214,7 @@ void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const Ruler ruler{corner.x + 10 * s, std::max(1.0f, room.x - 20 * s), corner.y,
                     corner.y + std::max(1.0f, room.y), length_};
   ImGui::InvisibleButton("track", {std::max(1.0f, room.x), std::max(1.0f, room.y)});
+  name_item("track");
   std::optional<size_t> hovered;
   if (ImGui::IsItemHovered()) hovered = key_under_pointer(own(), ruler, s);
   if (ImGui::IsItemActivated()) {
