@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "edit/edits/rest_edits.h"
+
 namespace holomorph {
 
 bool Shown::leaves_a_pose() const {
@@ -22,11 +24,18 @@ Shown::Entry Shown::entry_of(Deformation edited, EditBase base) const {
   Entry entry;
   entry.shown = base == EditBase::shown ? whole_pose_of(edited) : before;
   entry.moves = base == EditBase::shown && fits(edited, before) && entry.shown != before;
+  // An edit of the rest shape poses nothing: points that are not posed only follow it.
+  const bool edits_rest =
+      base == EditBase::shown && fits(edited, before) && differs_at_rest(this->base(), edited);
+  if (edits_rest) entry.moves = false;
   entry.sets_key = entry.moves && timeline.auto_key;
   entry.deformation = std::move(edited);
   const Pose own_pose = whole_pose_of(own());
-  if (base == EditBase::shown && !entry.moves && fits(entry.deformation, own_pose))
-    entry.deformation = posed_as(std::move(entry.deformation), own_pose);
+  if (base == EditBase::shown && !entry.moves && fits(entry.deformation, own_pose)) {
+    const Pose kept =
+        edits_rest ? pose_following_rest(this->base(), entry.deformation, own_pose) : own_pose;
+    entry.deformation = posed_as(std::move(entry.deformation), kept);
+  }
   return entry;
 }
 

@@ -40,23 +40,27 @@ TEST_CASE(
   run("edit.undo", desk.workspace);
   CHECK(desk.corner(0) == Complex(0, 0));
   run("edit.undo", desk.workspace);
-  CHECK(desk.workspace.document.scene().edited == 1);
-  run("edit.undo", desk.workspace);
   CHECK(desk.corner(1) == Complex(0, 0));
+  CHECK(desk.workspace.document.scene().edited == 1);
 }
 
-TEST_CASE("Consecutive switches of the edited layer are a single undo step") {
+TEST_CASE("Selecting a layer is not an undo step and leaves no unsaved changes") {
   TwoLayers desk;
+  Document& document = desk.workspace.document;
+  const Path file = std::filesystem::temp_directory_path() / "holomorph-select-layer.json";
+  document.save(file);
+  std::filesystem::remove(file);
   const size_t steps = desk.steps();
-  for (int i = 0; i < 3; ++i) {
-    run("layer.below", desk.workspace);
-    run("layer.above", desk.workspace);
-  }
   run("layer.below", desk.workspace);
-  CHECK(desk.steps() == steps + 1);
-  CHECK(desk.workspace.document.scene().edited == 0);
+  CHECK(document.scene().edited == 0);
+  CHECK(desk.steps() == steps);
+  CHECK_FALSE(document.modified());
+  // What was undone can still be redone.
+  run("layer.lock", desk.workspace);
   run("edit.undo", desk.workspace);
-  CHECK(desk.workspace.document.scene().edited == 1);
+  run("layer.above", desk.workspace);
+  CHECK_FALSE(document.modified());
+  CHECK(desk.workspace.actions.named("edit.redo").enabled(desk.workspace));
   CHECK_FALSE(desk.workspace.actions.named("layer.above").enabled(desk.workspace));
 }
 

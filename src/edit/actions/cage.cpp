@@ -84,7 +84,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "cage.rest",
           .label = "Edit rest shape",
-          .hint = "The pose stays while you edit the rest shape",
+          .hint = "Posed points stay while you edit the rest shape; others follow it",
           .keys = {Key::tab},
           .enabled = has_cage,
           .run = switch_mode,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "edit/edits/rest_edits.h"
+
 namespace holomorph {
 namespace {
 
@@ -44,8 +46,10 @@ bool is_smooth(const Deformation& deformation, Index vertex, EditMode mode) {
   return dot(in, out) < 0 && std::abs(cross(in, out)) <= kInLine * std::abs(in) * std::abs(out);
 }
 
-Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
-                          bool breaks) {
+namespace {
+
+void move_tangent(Deformation& deformation, Handle tangent, Complex to, EditMode mode,
+                  bool breaks) {
   const Cage& cage = cage_of(deformation, mode);
   std::vector<std::pair<Index, Handle>> opposite;  // a vertex and its opposite tangent
   for (const Index vertex : {tangent.index, cage.next(tangent.index)}) {
@@ -61,23 +65,32 @@ Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, E
     Complex& position = moved.segments[other.index][other.control];
     if (std::abs(arm) > 0) position = z - arm * (std::abs(position - z) / std::abs(arm));
   }
-  return deformation;
 }
 
-Deformation smoothed(Deformation deformation, Index vertex, EditMode mode) {
+}  // namespace
+
+Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
+                          bool breaks) {
+  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
+    move_tangent(edited, tangent, to, mode, breaks);
+  });
+}
+
+namespace {
+
+void smooth_vertex(Deformation& deformation, Index vertex, EditMode mode) {
   Cage& cage = cage_of(deformation, mode);
   const Index before = cage.before(vertex);
   raise_to(cage, before, 3);
   raise_to(cage, vertex, 3);
   const Complex z = cage.vertex(vertex), last = cage.vertex(before), next = cage.end_vertex(vertex);
-  if (std::abs(next - last) == 0) return deformation;
+  if (std::abs(next - last) == 0) return;
   const Complex along = (next - last) / std::abs(next - last);
   cage.segments[before].back() = z - along * (std::abs(z - last) / 3);
   cage.segments[vertex][1] = z + along * (std::abs(next - z) / 3);
-  return deformation;
 }
 
-Deformation cornered(Deformation deformation, Index vertex, EditMode mode) {
+void corner_vertex(Deformation& deformation, Index vertex, EditMode mode) {
   Cage& cage = cage_of(deformation, mode);
   const Index before = cage.before(vertex);
   const Complex z = cage.vertex(vertex);
@@ -85,7 +98,18 @@ Deformation cornered(Deformation deformation, Index vertex, EditMode mode) {
     if (cage.degree(e) == 2) raise_to(cage, e, 3);
   if (cage.degree(before) > 2) cage.segments[before].back() = z + (cage.vertex(before) - z) / 3.0;
   if (cage.degree(vertex) > 2) cage.segments[vertex][1] = z + (cage.end_vertex(vertex) - z) / 3.0;
-  return deformation;
+}
+
+}  // namespace
+
+Deformation smoothed(Deformation deformation, Index vertex, EditMode mode) {
+  return edited_in(mode, std::move(deformation),
+                   [&](Deformation& edited) { smooth_vertex(edited, vertex, mode); });
+}
+
+Deformation cornered(Deformation deformation, Index vertex, EditMode mode) {
+  return edited_in(mode, std::move(deformation),
+                   [&](Deformation& edited) { corner_vertex(edited, vertex, mode); });
 }
 
 Deformation toggled_corners(Deformation deformation, const Selection& selection, EditMode mode) {
@@ -113,27 +137,35 @@ std::set<Index> segments_of(const Deformation& deformation, const Selection& sel
 
 Deformation raised(Deformation deformation, const Selection& selection, EditMode mode) {
   const std::set<Index> segments = segments_of(deformation, selection, mode);
-  Cage& cage = cage_of(deformation, mode);
-  for (const Index e : segments) raise_to(cage, e, std::min(cage.degree(e) + 1, kHighestDegree));
-  return deformation;
+  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
+    Cage& cage = cage_of(edited, mode);
+    for (const Index e : segments) raise_to(cage, e, std::min(cage.degree(e) + 1, kHighestDegree));
+  });
 }
+
+namespace {
+
+/// Fits a curve of lower degree to a segment.
+void lower_degree(Cage& cage, Index segment) {
+  if (cage.degree(segment) == 1) return;
+  const Points controls = cage.controls(segment);
+  constexpr int kSamples = 48;
+  Points samples;
+  std::vector<double> parameters;
+  for (int k = 0; k <= kSamples; ++k) {
+    parameters.push_back(static_cast<double>(k) / kSamples);
+    samples.push_back(bezier_point(controls, parameters.back()));
+  }
+  set_controls(cage, segment, fitted(samples, parameters, cage.degree(segment) - 1));
+}
+
+}  // namespace
 
 Deformation lowered(Deformation deformation, const Selection& selection, EditMode mode) {
   const std::set<Index> segments = segments_of(deformation, selection, mode);
-  Cage& cage = cage_of(deformation, mode);
-  for (const Index e : segments) {
-    if (cage.degree(e) == 1) continue;
-    const Points controls = cage.controls(e);
-    constexpr int kSamples = 48;
-    Points samples;
-    std::vector<double> parameters;
-    for (int k = 0; k <= kSamples; ++k) {
-      parameters.push_back(static_cast<double>(k) / kSamples);
-      samples.push_back(bezier_point(controls, parameters.back()));
-    }
-    set_controls(cage, e, fitted(samples, parameters, cage.degree(e) - 1));
-  }
-  return deformation;
+  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
+    for (const Index e : segments) lower_degree(cage_of(edited, mode), e);
+  });
 }
 
 }  // namespace holomorph

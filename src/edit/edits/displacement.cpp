@@ -1,6 +1,7 @@
 // The weight of the soft selection falls off smoothly to 0 at its radius.
 #include "edit/edits/displacement.h"
 
+#include "edit/edits/rest_edits.h"
 #include "scene/mirror.h"
 
 namespace holomorph {
@@ -72,9 +73,10 @@ Deformation displaced(Deformation deformation, const Displacements& by, EditMode
   for (const auto& [handle, displacement] : by)
     for (const Handle& tangent : adjacent_tangents(cage_of(deformation, mode), handle))
       all.try_emplace(tangent, displacement);
-  for (const auto& [handle, displacement] : all)
-    if (exists(deformation, handle, mode)) shift(deformation, handle, displacement, mode);
-  return deformation;
+  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
+    for (const auto& [handle, displacement] : all)
+      if (exists(edited, handle, mode)) shift(edited, handle, displacement, mode);
+  });
 }
 
 }  // namespace holomorph

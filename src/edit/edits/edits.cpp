@@ -11,6 +11,7 @@
 #include "edit/edits/displacement.h"
 #include "edit/edits/hole_edits.h"
 #include "edit/edits/method_edits.h"
+#include "edit/edits/rest_edits.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -211,14 +212,13 @@ Deformation with_stroke(Deformation deformation, Points rest, Points pose,
 }
 
 Deformation redrawn(Deformation deformation, Index stroke, Points drawn, EditMode mode) {
-  Points& points = curve(deformation, stroke, mode);
+  const Points& points = curve(deformation, stroke, mode);
   const double kept = std::abs(drawn.front() - points.front()) +
                       std::abs(drawn.back() - points.back()),
                turned = std::abs(drawn.front() - points.back()) +
                         std::abs(drawn.back() - points.front());
   if (turned < kept) std::ranges::reverse(drawn);
-  points = std::move(drawn);
-  return deformation;
+  return with_curve(std::move(deformation), stroke, std::move(drawn), mode);
 }
 
 Points pulled(const Points& curve, bool closed, size_t point, Complex by, double reach) {
@@ -242,8 +242,9 @@ Points pulled(const Points& curve, bool closed, size_t point, Complex by, double
 }
 
 Deformation with_curve(Deformation deformation, Index stroke, Points drawn, EditMode mode) {
-  curve(deformation, stroke, mode) = std::move(drawn);
-  return deformation;
+  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
+    curve(edited, stroke, mode) = std::move(drawn);
+  });
 }
 
 Deformation with_outline(Deformation deformation, Points outline,

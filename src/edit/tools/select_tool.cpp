@@ -68,7 +68,7 @@ class SelectTool final : public HandleTool {
       return "Drag to move; Ctrl-drag to record motion; Shift-click to select more; Alt-click to "
              "delete; Ctrl-click for smooth or corner";
     return workspace.mode == EditMode::rest
-               ? "Drag points of the rest shape (the pose does not change); double-click an edge "
+               ? "Drag points of the rest shape (posed points stay); double-click an edge "
                  "to insert a point; " +
                      workspace.actions.key_of("cage.rest") + " returns to the pose"
                : "Drag points or pins; drag a box to select; double-click an edge to insert; " +

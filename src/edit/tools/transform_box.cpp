@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edit/edits/rest_edits.h"
 #include "edit/tools/tool.h"
 
 namespace holomorph {
@@ -50,8 +51,10 @@ Affine Affine::turning(double angle, Complex about) {
   return map;
 }
 
-Deformation transformed(Deformation deformation, const Selection& selection, const Affine& map,
-                        double turn, EditMode mode) {
+namespace {
+
+void transform(Deformation& deformation, const Selection& selection, const Affine& map, double turn,
+               EditMode mode) {
   Selection all = selection;
   for (const Handle& handle : selection)
     for (const Handle& tangent : adjacent_tangents(cage_of(deformation, mode), handle))
@@ -71,7 +74,15 @@ Deformation transformed(Deformation deformation, const Selection& selection, con
     *pin.angle += turn;
     pin.scale = std::clamp(size * pin.scale, kMinPinScale, kMaxPinScale);
   }
-  return deformation;
+}
+
+}  // namespace
+
+Deformation transformed(Deformation deformation, const Selection& selection, const Affine& map,
+                        double turn, EditMode mode) {
+  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
+    transform(edited, selection, map, turn, mode);
+  });
 }
 
 BoxMark TransformBox::mark_of(const Workspace& workspace, const Affine& map) const {
