@@ -150,6 +150,8 @@ class Editor {
 
   void layout(const PanelSizes& sizes) {
     Viewport& view = workspace_.display.viewport;
+    const Viewport before = view;
+    const bool was_fitted = !workspace_.document.empty() && is_same_view(view, fitted(view));
     view.left = sizes.toolbar;
     view.top = sizes.menu + sizes.options;
     const double room = window_.width() - sizes.toolbar - sizes.inspector;
@@ -160,20 +162,31 @@ class Editor {
     view.height =
         std::max(1.0, window_.height() - view.top - sizes.status - (timed ? sizes.timeline : 0));
     workspace_.display.handle_px = 10 * window_.scale();
-    if (std::exchange(fit_, false)) fit_all();
+    // A view that shows everything still does so after the window was resized or maximized.
+    const bool resized = before.width != view.width || before.height != view.height;
+    if (std::exchange(fit_, false) || (resized && was_fitted && !current_tool().busy()))
+      view = fitted(view);
   }
 
-  /// Fits the view to the picture, beside the start card if there is one.
-  void fit_all() {
-    Viewport& view = workspace_.display.viewport;
-    if (!start_card_.shows(workspace_) || !StartCard::has_room(workspace_))
-      return view.fit(content_box(workspace_));
+  /// A view of this size that shows the whole picture, beside the start card if there is one.
+  Viewport fitted(Viewport view) const {
+    const Box content = content_box(workspace_);
+    if (!start_card_.shows(workspace_) || !StartCard::has_room(workspace_)) {
+      view.fit(content);
+      return view;
+    }
     const double card = static_cast<double>(StartCard::width());
     Viewport part = view;
     part.width -= card;
-    part.fit(content_box(workspace_));
+    part.fit(content);
     view.zoom = part.zoom;
     view.center = part.center + Complex(card / 2 / part.zoom, 0);
+    return view;
+  }
+  static bool is_same_view(const Viewport& a, const Viewport& b) {
+    constexpr double kClose = 1e-6;
+    return std::abs(a.zoom - b.zoom) < kClose * a.zoom &&
+           std::abs(a.center - b.center) * a.zoom < kClose;
   }
 
   /// Fits the view to the posed picture of a newly opened scene, unless the user has already

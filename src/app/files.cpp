@@ -31,7 +31,7 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
       allow_outside_(allow_outside),
       jobs_(workspace, wake),
       dialog_(wake),
-      exports_(workspace, jobs_, dialog_),
+      exports_(workspace, jobs_, dialog_, wake),
       imports_(
           workspace, jobs_, dialog_, [this] { return reach(); },
           [this](const Path& path) { keep_recent(path); },

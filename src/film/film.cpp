@@ -1,11 +1,61 @@
 // All frames cover the same rectangle; otherwise the picture would jump.
 #include "film/film.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "core/error.h"
+#include "raster/compose.h"
 #include "scene/budget.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
+namespace {
+
+/// The key that a layer shows at a time, if it is no in-between: a key at this time, or the first or
+/// last key before or after all others.
+const Keyframe* key_shown_at(const Deformation& deformation, double time) {
+  const std::vector<size_t> playing = playing_keys(deformation);
+  if (playing.empty()) return nullptr;
+  const Keyframe &first = deformation.keyframes[playing.front()],
+                 &last = deformation.keyframes[playing.back()];
+  if (time <= first.time) return &first;
+  if (time >= last.time - 1e-9) return &last;
+  const size_t key = key_at(deformation, time);
+  return std::ranges::find(playing, key) == playing.end() ? nullptr : &deformation.keyframes[key];
+}
+
+/// Whether two poses show the same picture. Pins may have turned by whole turns.
+bool look_alike(const Pose& a, const Pose& b) {
+  if (a.cage != b.cage || a.strokes != b.strokes || a.corners != b.corners ||
+      a.pins.size() != b.pins.size())
+    return false;
+  for (size_t i = 0; i < a.pins.size(); ++i) {
+    const PosePin &p = a.pins[i], &q = b.pins[i];
+    constexpr double kSame = 1e-9;
+    if (p.position != q.position || p.scale != q.scale ||
+        std::abs(std::remainder(p.angle - q.angle, 2 * kPi)) > kSame)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int frames_of_film(const Scene& scene, int first, int last, bool loops) {
+  const int all = last - first + 1;
+  if (!loops || all < 2) return all;
+  const double rate = scene.animation.frames_per_second;
+  for (const SharedLayer& layer : scene.layers) {
+    const Deformation& deformation = layer->deformation;
+    if (!layer->visible || playing_keys(deformation).empty()) continue;
+    const Keyframe *from = key_shown_at(deformation, first / rate),
+                   *to = key_shown_at(deformation, last / rate);
+    if (!from || !to || !look_alike(from->pose, to->pose)) return all;
+  }
+  return all - 1;
+}
 
 std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
                                       const FilmOptions& options,
@@ -14,12 +64,12 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
   const FilmFormat& format = film_format_of(out);
   if (!has_keyframes(scene))
     throw Error(ErrorKind::bad_input, "a film needs keyframes, and the scene has none");
-  const int last = options.last < 0 ? last_frame_of(scene) : options.last,
-            frames = last - options.first + 1;
-  if (options.first < 0 || frames < 1 || last > last_frame_of(scene))
+  const int last = options.last < 0 ? last_frame_of(scene) : options.last;
+  if (options.first < 0 || last < options.first || last > last_frame_of(scene))
     throw Error(ErrorKind::bad_input,
                 "the scene has frames 0 to " + std::to_string(last_frame_of(scene)) + ", not " +
                     std::to_string(options.first) + " to " + std::to_string(last));
+  const int frames = frames_of_film(scene, options.first, last, options.loops);
   check_budget(&Budget::frames, frames, "the film has");
   const double rate = scene.animation.frames_per_second;
   PictureMaker maker(scene, source, others);
@@ -27,6 +77,19 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
   if (!picture.crop && !picture.region) {
     picture.region = maker.motion_region([&] { return progress(0, frames); });
     if (!picture.region) return {};
+  }
+  // All frames are cropped to the area that is filled in some of them.
+  if (std::exchange(picture.crops_to_filled, false)) {
+    Box filled;
+    for (int i = 0; i < frames; ++i) {
+      if (!progress(0, frames)) return {};
+      picture.time = (options.first + i) / rate;
+      const Box box = filled_box(maker.picture(picture), picture.scale);
+      if (box.empty()) continue;
+      filled.include({box.left, box.bottom});
+      filled.include({box.right, box.top});
+    }
+    if (!filled.empty()) picture.region = filled;
   }
   WrittenFilm film{frames, 0, 0, 0};
   std::unique_ptr<FilmWriter> writer;

@@ -15,6 +15,10 @@ struct FilmOptions {
   bool loops = true;
 };
 
+/// The number of frames of a film from frame `first` to `last`. A film that loops leaves out its
+/// last frame if it equals the first one, because both would be shown one after the other.
+int frames_of_film(const Scene& scene, int first, int last, bool loops);
+
 /// The film that was written.
 struct WrittenFilm {
   int frames = 0, width = 0, height = 0;  ///< number of frames, and their size in pixels

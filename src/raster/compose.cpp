@@ -1,6 +1,7 @@
 // Uses only integer arithmetic, which keeps opaque pixels and pixels of a single picture exact.
 #include "raster/compose.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/error.h"
@@ -20,6 +21,21 @@ void blend(const std::uint8_t* over, std::uint8_t* under) {
   for (int k = 0; k < 3; ++k)
     under[k] = static_cast<std::uint8_t>((255 * a * over[k] + through * under[k] + all / 2) / all);
   under[3] = static_cast<std::uint8_t>((all + 127) / 255);
+}
+
+/// The rows and columns of the pixels with some alpha: from the first to behind the last.
+struct PixelRange {
+  int left = 0, top = 0, right = 0, bottom = 0;
+  bool empty() const { return right <= left; }
+};
+PixelRange filled_range(const Image& image) {
+  PixelRange range{image.width, image.height, 0, 0};
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c)
+      if (image.at(c, r)[3] > 0)
+        range = {std::min(range.left, c), std::min(range.top, r), std::max(range.right, c + 1),
+                 std::max(range.bottom, r + 1)};
+  return range;
 }
 
 struct PixelOffset {
@@ -58,6 +74,30 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
     for (int c = 0; c < over.image.width; ++c)
       blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r));
   return result;
+}
+
+Box filled_box(const RasterResult& result, double pixels_per_unit) {
+  const PixelRange range = filled_range(result.image);
+  Box box;
+  if (range.empty()) return box;
+  const auto at = [&](int column, int row) {
+    return result.corner + Complex(column, result.image.height - row) / pixels_per_unit;
+  };
+  box.include(at(range.left, range.bottom));
+  box.include(at(range.right, range.top));
+  return box;
+}
+
+RasterResult cropped_to_filled(RasterResult result, double pixels_per_unit) {
+  const PixelRange range = filled_range(result.image);
+  if (range.empty()) return result;
+  RasterResult cropped{Image(range.right - range.left, range.bottom - range.top),
+                       result.corner + Complex(range.left, result.image.height - range.bottom) /
+                                           pixels_per_unit};
+  for (int r = 0; r < cropped.image.height; ++r)
+    std::memcpy(cropped.image.at(0, r), result.image.at(range.left, range.top + r),
+                4 * static_cast<size_t>(cropped.image.width));
+  return cropped;
 }
 
 void composite_onto_color(Image& image, const std::array<std::uint8_t, 3>& color) {

@@ -11,6 +11,12 @@ namespace holomorph {
 /// for bit. Throws Error{bad_input} if the result would have more than 16384 pixels on a side.
 RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit);
 
+/// The part of the plane that pixels with some alpha cover; empty if there are none.
+Box filled_box(const RasterResult& result, double pixels_per_unit);
+/// The smallest part of a picture that contains all pixels with some alpha. A picture without any
+/// is returned unchanged.
+RasterResult cropped_to_filled(RasterResult result, double pixels_per_unit);
+
 /// Composites the image onto an opaque background color, in place.
 void composite_onto_color(Image& image, const std::array<std::uint8_t, 3>& color);
 

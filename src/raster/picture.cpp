@@ -172,6 +172,7 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
     if (options.view != View::image) return result;
     if (scene_.background.fill == Background::Fill::original)
       result = composed(edited.original(options, top), result, options.scale);
+    if (options.crops_to_filled) result = cropped_to_filled(std::move(result), options.scale);
     if (scene_.background.fill == Background::Fill::color)
       composite_onto_color(result.image, scene_.background.color);
     return result;
@@ -189,6 +190,7 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
   for (const auto& layer : layers_)
     if (layer->visible()) add(layer->picture(options, top));
   if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
+  if (options.crops_to_filled) *result = cropped_to_filled(std::move(*result), options.scale);
   if (scene_.background.fill == Background::Fill::color)
     composite_onto_color(result->image, scene_.background.color);
   return std::move(*result);

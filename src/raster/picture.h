@@ -12,6 +12,8 @@ struct PictureOptions {
   View view = View::image;  ///< all other views show only the edited layer, without a background
   double scale = 1;         ///< output pixels per image pixel
   bool crop = false;        ///< crop to the lowest picture's rectangle; otherwise crop nothing
+  bool crops_to_filled = false;  ///< crop to the pixels that are not transparent, before the
+                                 ///< background is added
   bool automatic_range = false;
   std::optional<Box> region = {};   ///< draw exactly this part of the plane
   std::optional<double> time = {};  ///< seconds on the timeline; if not set, the scene's pose

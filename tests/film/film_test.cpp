@@ -201,3 +201,43 @@ TEST_CASE("The rectangle of a film fits the whole motion tightly at any frame ra
     CHECK(box->top - exact.top < 0.6);
   }
 }
+
+TEST_CASE("A film that loops leaves out a last frame that equals the first") {
+  Scene scene = film_scene();
+  Deformation deformation = scene.deformation();
+  deformation = with_key(posed_as(std::move(deformation), deformation.keyframes[0].pose), 1);
+  const Scene closed = with_deformation(scene, deformation);
+  CHECK(last_frame_of(closed) == 24);
+  CHECK(frames_of_film(closed, 0, 24, true) == 24);
+  CHECK(frames_of_film(closed, 0, 24, false) == 25);
+  CHECK(frames_of_film(closed, 0, 23, true) == 24);  // ends before the last key
+  CHECK(frames_of_film(closed, 12, 12, true) == 1);
+  CHECK(frames_of_film(scene, 0, 12, true) == 13);  // ends at another pose
+  const Folder folder;
+  const Image image = gray();
+  const auto written = write_film(folder.path / "loop.png", closed, &image, {},
+                                  [](int, int) { return true; });
+  REQUIRE(written);
+  CHECK(written->frames == 24);
+  CHECK(folder.names().size() == 24);
+}
+
+TEST_CASE("A cropped film covers what some frame fills") {
+  Image dot(60, 40);  // transparent, except for a square
+  for (int row = 15; row < 25; ++row)
+    for (int column = 10; column < 20; ++column) std::fill_n(dot.at(column, row), 4, 255);
+  const Folder folder;
+  FilmOptions options;
+  options.picture.crops_to_filled = true;
+  Scene scene = film_scene();
+  const auto film = write_film(folder.path / "dot.png", scene, &dot, options,
+                               [](int, int) { return true; });
+  REQUIRE(film);
+  // The square moves by 8 px to the right.
+  CHECK(film->width >= 17);
+  CHECK(film->width <= 20);
+  CHECK(film->height >= 10);
+  CHECK(film->height <= 12);
+  CHECK(film->corner.real() == Approx(10).margin(1));
+  CHECK(film->corner.imag() == Approx(15).margin(1));
+}

@@ -7,6 +7,7 @@
 #include "raster/picture.h"
 #include "scene/layers.h"
 #include "support/scenes.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -184,4 +185,26 @@ TEST_CASE("Where a picture overlaps itself, the part of the higher pin is on top
   CHECK(seen(0, 5) == kBlue);
   CHECK(seen(5, 0) == kRed);
   CHECK(seen(0, -5) == kRed);
+}
+
+TEST_CASE("Cropping to the filled area keeps every pixel and its place in the plane") {
+  for (const unsigned seed : seeds_of("filled area", {1, 2, 3})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    RasterResult result{Image(30, 20), Complex(3, -2)};
+    const double scale = 0.5 + static_cast<double>(random() % 4);
+    for (int i = 0; i < 4; ++i)
+      result.image.at(static_cast<int>(random() % 30), static_cast<int>(random() % 20))[3] =
+          static_cast<std::uint8_t>(1 + random() % 255);
+    const RasterResult cropped = cropped_to_filled(result, scale);
+    const Box box = filled_box(result, scale);
+    CHECK(std::abs(cropped.corner - Complex(box.left, box.bottom)) < 1e-9);
+    CHECK(cropped.image.width == Approx(box.width() * scale));
+    CHECK(cropped.image.height == Approx(box.height() * scale));
+    const RasterResult again = composed({Image(30, 20), result.corner}, cropped, scale);
+    CHECK(again.image == result.image);
+    const Box same = filled_box(cropped, scale);
+    CHECK(std::abs(same.left - box.left) + std::abs(same.top - box.top) < 1e-9);
+  }
+  CHECK(cropped_to_filled({Image(4, 3), 0}, 1).image == Image(4, 3));
 }

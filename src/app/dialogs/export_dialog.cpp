@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <cctype>
+
 #include <algorithm>
 #include <utility>
 
@@ -119,35 +121,54 @@ std::optional<Box> ExportDialog::region_box() const {
   return box.empty() ? std::nullopt : std::optional(box);
 }
 
+int ExportDialog::frames() const {
+  return frames_of_film(workspace_.document.scene(), settings_.first, settings_.last,
+                        settings_.loops);
+}
+
+std::pair<Scene, PictureOptions> ExportDialog::drawn() const {
+  Scene scene = workspace_.document.scene();
+  if (settings_.background) scene.background = *settings_.background;
+  PictureOptions options = as_shown(workspace_);
+  options.scale = settings_.scale;
+  options.region = region_box();
+  options.crops_to_filled = settings_.crops_to_filled;
+  return {std::move(scene), options};
+}
+
 std::string ExportDialog::result_text() const {
   const std::optional<Box> box = region_box();
   const Box shown = box ? *box : content_box(workspace_);
-  char text[160];
-  const int frames = settings_.last - settings_.first + 1;
-  int used = std::snprintf(text, sizeof text, "%s%.0f x %.0f pixels",
-                           box              ? ""
-                           : settings_.film ? "At least "
-                                            : "About ",
-                           std::ceil(shown.width() * settings_.scale),
-                           std::ceil(shown.height() * settings_.scale));
+  const bool crops = settings_.crops_to_filled;
+  std::string text;
+  char part[120];
   if (settings_.film) {
     const double rate = workspace_.document.scene().animation.frames_per_second;
-    std::snprintf(text + used, sizeof text - static_cast<size_t>(used),
-                  ", %d frame%s, %.2f s at %.5g frames per second", frames, frames == 1 ? "" : "s",
-                  frames / rate, rate);
+    const int count = frames();
+    std::snprintf(part, sizeof part, "%d frame%s, %.2f s, ", count, count == 1 ? "" : "s",
+                  count / rate);
+    text += part;
   }
-  std::string result = text;
+  std::snprintf(part, sizeof part, "%s%.0f \u00d7 %.0f px",
+                crops            ? "at most "
+                : box            ? ""
+                : settings_.film ? "at least "
+                                 : "about ",
+                std::ceil(shown.width() * settings_.scale),
+                std::ceil(shown.height() * settings_.scale));
+  text += part;
+  if (const std::string size = estimate_.text(); !size.empty()) text += ", about " + size;
   const Background& background =
       settings_.background ? *settings_.background : workspace_.document.scene().background;
   if (format_extension(settings_.path) == ".jpg" &&
       background.fill == Background::Fill::transparent)
-    result += "; transparent parts become white";
-  return result;
+    text += "; transparent parts become white";
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 std::vector<Path> ExportDialog::files() const {
-  return settings_.film ? files_of_film(settings_.path, settings_.last - settings_.first + 1)
-                        : std::vector{settings_.path};
+  return settings_.film ? files_of_film(settings_.path, frames()) : std::vector{settings_.path};
 }
 
 std::string ExportDialog::start(const ExportSettings& settings) {
@@ -164,11 +185,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   } catch (const Error& error) {
     return error.what();
   }
-  Scene scene = document.scene();
-  if (settings.background) scene.background = *settings.background;
-  PictureOptions options = as_shown(workspace_);
-  options.scale = settings.scale;
-  options.region = region_box();
+  auto [scene, options] = drawn();
   struct Work {
     Scene scene;
     Pictures pictures;
@@ -187,11 +204,11 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     const std::string name = settings.path.filename().string();
     if (settings.film) {
       FilmOptions film{options, settings.first, settings.last, settings.loops};
-      write_film(
+      const auto written = write_film(
           settings.path, scene, image, film,
           [&](int done, int all) { return progress.at(done, all); }, pictures);
-      work->done = "Exported " + name + ", " + std::to_string(settings.last - settings.first + 1) +
-                   " frames.";
+      if (written)
+        work->done = "Exported " + name + ", " + std::to_string(written->frames) + " frames.";
       return;
     }
     const RasterResult result = picture_of(scene, image, options, pictures);
@@ -349,9 +366,12 @@ void ExportDialog::draw_look() {
       }
     end_dropdown();
   }
-  if (!settings_.background || settings_.background->fill != Background::Fill::color) return;
-  row_label("Color");
-  color_field("##Color", settings_.background->color, ImGui::GetContentRegionAvail().x);
+  if (settings_.background && settings_.background->fill == Background::Fill::color) {
+    row_label("Color");
+    color_field("##Color", settings_.background->color, ImGui::GetContentRegionAvail().x);
+  }
+  row_label("");
+  check_box("Crop to filled area", settings_.crops_to_filled);
 }
 
 void ExportDialog::draw_frames() {
@@ -369,6 +389,12 @@ void ExportDialog::draw_frames() {
     settings_.last = std::clamp(static_cast<int>(std::lround(to)), settings_.first, last);
   }
   if (switch_row("Loop", settings_.loops)) settings_.loops = !settings_.loops;
+  if (settings_.loops && frames() < settings_.last - settings_.first + 1) {
+    ImGui::SameLine(0, px(12));
+    ImGui::AlignTextToFramePadding();
+    muted_text("Frame " + std::to_string(settings_.last) + " equals frame " +
+               std::to_string(settings_.first) + " and is left out");
+  }
 }
 
 void ExportDialog::draw() {
@@ -381,6 +407,10 @@ void ExportDialog::draw() {
     draw_look();
     if (settings_.film) draw_frames();
   }
+  const auto [scene, options] = drawn();
+  estimate_.update({scene, options, settings_.path.extension().string(), settings_.film,
+                    settings_.first, settings_.film ? frames() : 1},
+                   workspace_.document.pictures());
   if (message_.empty())
     caption(result_text());
   else

@@ -1,6 +1,7 @@
 // One dialog for pictures and films: what to export, at which size, and to which file.
 #pragma once
 
+#include "app/dialogs/export_estimate.h"
 #include "app/dialogs/file_chooser.h"
 #include "app/dialogs/jobs.h"
 #include "film/film.h"
@@ -17,6 +18,7 @@ struct ExportSettings {
   std::optional<Background> background;  ///< none: the scene's
   int first = 0, last = 0;               ///< frames
   bool loops = true;
+  bool crops_to_filled = false;
 };
 
 /// Options for a picture with the canvas's current view, color range and time.
@@ -26,8 +28,9 @@ std::string missing_picture_message(const Workspace& workspace);
 
 class ExportDialog {
  public:
-  ExportDialog(Workspace& workspace, Jobs& jobs, FileChooser& chooser)
-      : workspace_(workspace), jobs_(jobs), chooser_(chooser) {}
+  /// `wake` is called on another thread when the size of the file has been estimated.
+  ExportDialog(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<void()> wake)
+      : workspace_(workspace), jobs_(jobs), chooser_(chooser), estimate_(std::move(wake)) {}
 
   /// Opens the dialog for a picture or a film. Proposes a file in the folder of the last export, or
   /// in `folder` before the first export.
@@ -46,6 +49,9 @@ class ExportDialog {
   void draw_look();
   void draw_frames();
   std::string result_text() const;
+  int frames() const;  ///< of the film
+  /// What is to be exported: the scene with the chosen background, and how it is drawn.
+  std::pair<Scene, PictureOptions> drawn() const;
   std::optional<Box> region_box() const;
   std::vector<Path> files() const;
   /// Returns an error message, or "".
@@ -64,6 +70,7 @@ class ExportDialog {
   bool last_all_ = true;                ///< the last export ended at the scene's last frame
   Path folder_;
   std::string name_, message_;
+  ExportEstimate estimate_;
   bool open_ = false, opening_ = false, confirming_ = false;
 };
 

@@ -1,0 +1,76 @@
+// Files grow a little slower than their pixels, because large pictures are smoother.
+#include "app/dialogs/export_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <tuple>
+
+namespace holomorph {
+namespace {
+
+constexpr double kSmall = 480;      // longest side of the small picture, pixels
+constexpr double kGrowth = 0.9;     // exponent of the pixels
+constexpr double kLaterFrame = 0.6; // size of a later frame of a film, relative to the first
+
+double estimate(const ExportEstimate::Question& question, const Pictures& pictures) {
+  const Scene& scene = question.scene;
+  PictureMaker maker(scene, pictures.of(scene.layer()), pictures);
+  PictureOptions options = question.options;
+  if (question.film) options.time = question.first / scene.animation.frames_per_second;
+  Box shown = options.region ? *options.region : maker.rectangle();
+  const double longest = std::max({shown.width(), shown.height(), 1.0});
+  options.scale = std::min(question.options.scale, kSmall / longest);
+  const Image small = maker.picture(options).image;
+  const bool is_still = std::ranges::any_of(picture_formats(), [&](const PictureFormat& format) {
+    return format.extension == question.extension;
+  });
+  const PictureFormat& format = picture_format_of(is_still ? "a" + question.extension : "a.webp");
+  const double bytes = static_cast<double>(format.encode(small).size()),
+               more = std::pow(question.options.scale / options.scale, 2 * kGrowth);
+  return bytes * more * (1 + kLaterFrame * (question.frames - 1));
+}
+
+}  // namespace
+
+bool ExportEstimate::Question::operator==(const Question& other) const {
+  const auto values = [](const Question& q) {
+    const PictureOptions& o = q.options;
+    const Box box = o.region.value_or(Box{});
+    return std::tuple(o.view, o.scale, o.crops_to_filled, box.left, box.bottom, box.right, box.top,
+                      o.time, q.extension, q.film, q.first, q.frames);
+  };
+  return values(*this) == values(other) && scene == other.scene;
+}
+
+void ExportEstimate::update(Question question, const Pictures& pictures) {
+  if (result_) {
+    const std::lock_guard lock(result_->mutex);
+    if (result_->bytes) bytes_ = result_->bytes;
+  }
+  if (job_ && job_->ended()) job_.reset();
+  if (job_ || asked_ == question) return;
+  asked_ = question;
+  bytes_.reset();
+  result_ = std::make_shared<Result>();
+  job_ = std::make_unique<Job>(
+      "Estimating the size",
+      [question = std::move(question), pictures, result = result_](Job::Progress&) {
+        const double bytes = estimate(question, pictures);
+        const std::lock_guard lock(result->mutex);
+        result->bytes = bytes;
+      },
+      wake_);
+}
+
+std::string ExportEstimate::text() const {
+  if (!bytes_) return "";
+  char text[40];
+  if (*bytes_ < 1e6)
+    std::snprintf(text, sizeof text, "%.0f kB", std::max(1.0, *bytes_ / 1e3));
+  else
+    std::snprintf(text, sizeof text, "%.1f MB", *bytes_ / 1e6);
+  return text;
+}
+
+}  // namespace holomorph
