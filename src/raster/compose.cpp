@@ -2,6 +2,7 @@
 #include "raster/compose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/error.h"
@@ -9,17 +10,48 @@
 namespace holomorph {
 namespace {
 
-/// Blends the pixel `over` onto the pixel `under`, both in straight alpha.
-void blend(const std::uint8_t* over, std::uint8_t* under) {
-  const unsigned a = over[3], b = under[3];
+/// x / 255, rounded, for 0 <= x <= 255^2.
+unsigned divided_by_255(unsigned x) {
+  return (x + 127) / 255;
+}
+
+/// The color channel that a blending mode makes of the colors above and below.
+unsigned blended(Blending mode, unsigned over, unsigned under) {
+  switch (mode) {
+    case Blending::multiply:
+      return divided_by_255(over * under);
+    case Blending::screen:
+      return over + under - divided_by_255(over * under);
+    case Blending::overlay:
+      return under < 128 ? divided_by_255(2 * over * under)
+                         : 255 - divided_by_255(2 * (255 - over) * (255 - under));
+    case Blending::add:
+      return std::min(255u, over + under);
+    case Blending::normal:
+      break;
+  }
+  return over;
+}
+
+/// Blends the pixel `over` onto the pixel `under`, both in straight alpha (W3C Compositing and
+/// Blending, 5.6 and 9.1.3).
+void blend(const std::uint8_t* over, std::uint8_t* under, const LayerInk& ink = {}) {
+  const unsigned a = divided_by_255(over[3] * ink.opacity), b = under[3];
+  const bool is_normal = ink.blending == Blending::normal;
   if (a == 0) return;
-  if (a == 255 || b == 0) {
-    std::memcpy(under, over, 4);
+  if ((a == 255 && is_normal) || b == 0) {
+    std::memcpy(under, over, 3);
+    under[3] = static_cast<std::uint8_t>(a);
     return;
   }
-  const unsigned through = b * (255 - a), all = 255 * a + through;  // in units of 1 / 255^2
-  for (int k = 0; k < 3; ++k)
-    under[k] = static_cast<std::uint8_t>((255 * a * over[k] + through * under[k] + all / 2) / all);
+  // Weights of the colors above, below and blended, in units of 1 / 255^2.
+  const unsigned both = a * b, above = a * (255 - b), below = b * (255 - a),
+                 all = above + below + both;
+  for (int k = 0; k < 3; ++k) {
+    const unsigned mixed = blended(ink.blending, over[k], under[k]);
+    under[k] = static_cast<std::uint8_t>(
+        (above * over[k] + below * under[k] + both * mixed + all / 2) / all);
+  }
   under[3] = static_cast<std::uint8_t>((all + 127) / 255);
 }
 
@@ -44,7 +76,19 @@ struct PixelOffset {
 
 }  // namespace
 
-RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit) {
+LayerInk ink_of(const Layer& layer) {
+  return {static_cast<unsigned>(std::lround(255 * std::clamp(layer.opacity, 0.0, 1.0))),
+          layer.blending};
+}
+
+void fade(Image& image, const LayerInk& ink) {
+  if (ink.opacity == 255) return;
+  for (size_t i = 3; i < image.pixels.size(); i += 4)
+    image.pixels[i] = static_cast<std::uint8_t>(divided_by_255(image.pixels[i] * ink.opacity));
+}
+
+RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit,
+                      const LayerInk& ink) {
   // `corner` is the lower left corner of a picture, but rows are counted from the top.
   const auto shift = [&](double by) { return static_cast<int>(std::lround(by * pixels_per_unit)); };
   const int right = shift(over.corner.real() - under.corner.real()),
@@ -72,7 +116,7 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
   const PixelOffset at = offset_of(over.image, right, up);
   for (int r = 0; r < over.image.height; ++r)
     for (int c = 0; c < over.image.width; ++c)
-      blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r));
+      blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r), ink);
   return result;
 }
 

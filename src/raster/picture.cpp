@@ -26,6 +26,7 @@ class PictureMaker::LayerMaker {
 
   const Image* source() const { return source_; }
   bool visible() const { return layer_.visible && source_; }
+  LayerInk ink() const { return ink_of(layer_); }
 
   RasterResult picture(const PictureOptions& options, double top) {
     RasterJob job = job_of(options, top);
@@ -181,14 +182,19 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
   if (options.crop && !options.region && !rectangle.empty()) options.region = rectangle;
   const double top = rectangle.empty() ? 0 : rectangle.top;
   std::optional<RasterResult> result;
-  const auto add = [&](RasterResult over) {
-    result = result ? composed(std::move(*result), over, options.scale) : std::move(over);
+  const auto add = [&](RasterResult over, const LayerInk& ink = {}) {
+    if (result) {
+      result = composed(std::move(*result), over, options.scale, ink);
+    } else {
+      fade(over.image, ink);
+      result = std::move(over);
+    }
   };
   if (scene_.background.fill == Background::Fill::original)
     for (const auto& layer : layers_)
       if (layer->visible() && layer->source()) add(layer->original(options, top));
   for (const auto& layer : layers_)
-    if (layer->visible()) add(layer->picture(options, top));
+    if (layer->visible()) add(layer->picture(options, top), layer->ink());
   if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
   if (options.crops_to_filled) *result = cropped_to_filled(std::move(*result), options.scale);
   if (scene_.background.fill == Background::Fill::color)

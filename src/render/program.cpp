@@ -60,5 +60,8 @@ Program warp_program() {
 Program surface_program() {
   return {kSurfaceVert, kSurfaceFrag};
 }
+Program composite_program() {
+  return {kCompositeVert, kCompositeFrag};
+}
 
 }  // namespace holomorph

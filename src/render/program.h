@@ -23,9 +23,10 @@ class Program {
   unsigned id_ = 0;
 };
 
-/// The two programs, built from the files in shaders/. One draws a map of the plane, the other a
-/// surface in space.
+/// The programs, built from the files in shaders/. They draw a map of the plane, a surface in
+/// space, and layers over one another.
 Program warp_program();
 Program surface_program();
+Program composite_program();
 
 }  // namespace holomorph

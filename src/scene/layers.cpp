@@ -33,10 +33,14 @@ std::string title_of_layer(const Scene& scene, size_t layer) {
   return "Layer " + std::to_string(layer + 1);
 }
 
+bool is_blended(const Layer& layer) {
+  return layer.opacity < 1 || layer.blending != Blending::normal;
+}
+
 bool has_layers(const Scene& scene) {
   const Layer& layer = scene.layer();
   return scene.layers.size() > 1 || !layer.name.empty() || !layer.visible || layer.locked ||
-         !layer.extra.empty();
+         is_blended(layer) || !layer.extra.empty();
 }
 
 Scene with_layer_at(Scene scene, size_t number, Layer layer) {

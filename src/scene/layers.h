@@ -10,6 +10,8 @@ size_t layer_index(const Scene& scene, int id);
 /// The layer's name. If it is empty, the name of the layer's picture. If there is no picture
 /// either, "Layer" and the layer's number, counting from 1.
 std::string title_of_layer(const Scene& scene, size_t layer);
+/// Whether a layer is not simply drawn over those below it.
+bool is_blended(const Layer& layer);
 /// Whether the scene is more than a single plain layer.
 bool has_layers(const Scene& scene);
 

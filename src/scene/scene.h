@@ -19,12 +19,19 @@ struct ImageReference {
   bool operator==(const ImageReference&) const = default;
 };
 
+/// How a layer's colors combine with those below it (W3C Compositing and Blending, 9.1). `add` is
+/// the sum, up to white.
+enum class Blending { normal, multiply, screen, overlay, add };
+inline constexpr std::array kBlendingNames{"normal", "multiply", "screen", "overlay", "add"};
+
 /// A picture and its deformation.
 struct Layer {
   int id = 1;  ///< identifies a layer within a session; not saved
   std::string name = {};
   bool visible = true;
   bool locked = false;  ///< edits are refused
+  double opacity = 1;   ///< 0 to 1
+  Blending blending = Blending::normal;
   std::optional<ImageReference> image = {};
   Deformation deformation = {};
   Extra extra = {};

@@ -95,14 +95,15 @@ class Editor:
         self.settle(since, 2)
 
     def item(self, name, seconds=10):
-        """The window position of the middle of a named item, such as a button."""
-        end = time.time() + seconds
+        """The window position of the middle of a named item, such as a button. Waits until the item stays in place."""
+        end, before = time.time() + seconds, None
         while time.time() < end:
             state = self.state()
-            if state and name in state["items"] and not state["moving"]:
-                left, top, right, bottom = state["items"][name]
-                return (left + right) // 2, (top + bottom) // 2
-            time.sleep(0.03)
+            box = state["items"].get(name) if state and not state["moving"] else None
+            if box and box == before:
+                return (box[0] + box[2]) // 2, (box[1] + box[3]) // 2
+            before = box
+            time.sleep(0.1)
         raise AssertionError(f"there is no item '{name}'; the items are {sorted((self.state() or {'items': {}})['items'])}")
 
     def press_item(self, name):

@@ -4,6 +4,7 @@ import math
 import os
 import shutil
 import stat
+import subprocess
 import sys
 import time
 import unittest
@@ -91,6 +92,51 @@ class EditorWindowTest(WindowCase):
         saved = load(path)
         self.assertEqual([layer["image"]["file"] for layer in saved["layers"]], ["blue.png", "caged.png"])
         self.assertEqual(saved["edited"], 1)
+
+    def test_blended_layers_look_like_the_export(self):
+        rng = numpy.random.default_rng(20)
+        for mode in ("multiply", "screen", "overlay", "add", "normal"):
+            with self.subTest(mode=mode):
+                colors = [tuple(int(c) for c in rng.integers(0, 256, 3)) for _ in range(2)]
+                opacity = round(float(rng.uniform(0.3, 0.9)), 2)
+                self.plain("lower.png", colors[0], (300, 200))
+                self.plain("upper.png", colors[1], (150, 200))
+                scene, out = os.path.join(self.work, "blended.json"), os.path.join(self.work, "blended.png")
+                with open(scene, "w") as file:
+                    json.dump({"format": "holomorph", "version": 2, "layers": [
+                        {"image": {"file": "lower.png"}, "cage": {"rest": [[[0, 0]], [[300, 0]], [[300, 200]], [[0, 200]]]}},
+                        {"image": {"file": "upper.png"}, "opacity": opacity, "blending": mode,
+                         "cage": {"rest": [[[0, 0]], [[150, 0]], [[150, 200]], [[0, 200]]]}}]}, file)
+                subprocess.run([PROGRAM, "render", scene, "--out", out, "--force"], check=True, capture_output=True)
+                exported = numpy.asarray(Image.open(out).convert("RGB")).astype(int)
+                with Editor(PROGRAM, [scene]) as editor:
+                    editor.wait(lambda s: s["layers"] == 2 and s["pictured"], "the scene")
+                    editor.wait(lambda s: not s["moving"], "an interface at rest")
+                    time.sleep(0.5)
+                    shot = self.screenshot(editor, "blended-" + mode)
+                    for x, y in ((75, 100), (225, 100)):
+                        px, py = editor.pixel(x, y)
+                        difference = numpy.abs(shot[py, px] - exported[200 - y, x]).max()
+                        self.assertLessEqual(difference, 1, (mode, opacity, colors, x, shot[py, px], exported[200 - y, x]))
+
+    def test_opacity_and_blending_are_chosen_and_saved(self):
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+            left, top, right, bottom = editor.state()["items"]["Opacity"]
+            editor.press(right - 30, (top + bottom) // 2)
+            time.sleep(0.3)
+            editor.key("ctrl+a")
+            editor.type("40")
+            editor.key("Return")
+            editor.wait(lambda s: s["modified"], "another opacity")
+            editor.press_item("Blending")
+            editor.press_item("Screen")
+            time.sleep(0.4)
+            path = os.path.join(self.work, "inked.json")
+            self.save_as(editor, path)
+        layer = load(path)["layers"][0]
+        self.assertEqual((layer["opacity"], layer["blending"]), (0.4, "screen"))
 
     def test_a_picture_that_another_program_changes_is_read_again(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])

@@ -208,3 +208,69 @@ TEST_CASE("Cropping to the filled area keeps every pixel and its place in the pl
   }
   CHECK(cropped_to_filled({Image(4, 3), 0}, 1).image == Image(4, 3));
 }
+
+namespace {
+
+/// The mode's result for colors from 0 to 1, in floating point.
+double mixed(Blending mode, double over, double under) {
+  switch (mode) {
+    case Blending::multiply:
+      return over * under;
+    case Blending::screen:
+      return 1 - (1 - over) * (1 - under);
+    case Blending::overlay:
+      return under < 0.5 ? 2 * over * under : 1 - 2 * (1 - over) * (1 - under);
+    case Blending::add:
+      return std::min(1.0, over + under);
+    case Blending::normal:
+      break;
+  }
+  return over;
+}
+
+}  // namespace
+
+TEST_CASE("Opacity and blending modes agree with the formulas of the W3C") {
+  for (const unsigned seed : seeds_of("blending", {1, 2})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto byte = [&] { return static_cast<std::uint8_t>(random() % 256); };
+    for (int mode = 0; mode < 5; ++mode) {
+      INFO(kBlendingNames[static_cast<size_t>(mode)]);
+      Layer layer;
+      layer.blending = static_cast<Blending>(mode);
+      layer.opacity = static_cast<double>(random() % 256) / 255;
+      Image over(40, 10), under(40, 10);
+      for (std::uint8_t& value : over.pixels) value = byte();
+      for (std::uint8_t& value : under.pixels) value = byte();
+      const Image result = composed({under, 0}, {over, 0}, 1, ink_of(layer)).image;
+      double farthest = 0;
+      for (int i = 0; i < 400; ++i) {
+        const Pixel o = pixel_at(over, i % 40, i / 40), u = pixel_at(under, i % 40, i / 40),
+                    r = pixel_at(result, i % 40, i / 40);
+        const double a = layer.opacity * o[3] / 255, b = u[3] / 255.0, all = a + b - a * b;
+        farthest = std::max(farthest, std::abs(r[3] / 255.0 - all));
+        for (size_t k = 0; k < 3 && all > 0; ++k) {
+          const double cs = o[k] / 255.0, cb = u[k] / 255.0,
+                       wanted = (a * (1 - b) * cs + b * (1 - a) * cb +
+                                 a * b * mixed(layer.blending, cs, cb)) / all;
+          // Premultiplied, because colors of nearly transparent pixels cannot be seen.
+          farthest = std::max(farthest, all * std::abs(r[k] / 255.0 - wanted));
+        }
+      }
+      CHECK(farthest < 2.0 / 255);
+    }
+  }
+}
+
+TEST_CASE("The same layer pixels give the same bits, and a faint lowest layer stays faint") {
+  const Image red = filled(4, 4, kRed), blue = filled(4, 4, kBlue);
+  const LayerInk half{128, Blending::normal};
+  const Image once = composed({blue, 0}, {red, 0}, 1, half).image;
+  CHECK(composed({blue, 0}, {red, 0}, 1, half).image == once);
+  CHECK(pixel_at(once, 1, 1) == Pixel{128, 0, 127, 255});
+  Image faint = red;
+  fade(faint, half);
+  CHECK(pixel_at(faint, 0, 0) == Pixel{255, 0, 0, 128});
+  CHECK(composed({Image(4, 4), 0}, {red, 0}, 1, half).image == faint);
+}

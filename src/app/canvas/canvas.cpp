@@ -1,7 +1,11 @@
 // Layers are drawn from bottom to top. The first one drawn clears the canvas.
 #include "app/canvas/canvas.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "scene/layers.h"
 
 namespace holomorph {
 namespace {
@@ -102,21 +106,39 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
                                  workspace.display.automatic_range);
     drawn.push_back(&layer);
   }
-  const auto draw = [&](const Layer& layer, RenderFrame drawing) {
+  // With opacities or blending modes, the page is drawn alone, and the layers are combined away
+  // from the window.
+  const bool combines = !edited_only && std::ranges::any_of(drawn, [](const Layer* layer) {
+    return is_blended(*layer);
+  });
+  const auto paint = [&](const Layer& layer, RenderFrame drawing) {
     painter_of(layer).draw(workspace.maps.of(layer.id),
                            &layer == &edited ? workspace.display.view : View::image,
                            std::move(drawing));
     frame.over = true;
   };
-  if (drawn.empty()) {
-    frame.content = Content::nothing;
-    return draw(edited, frame);
+  if (drawn.empty() || combines) {
+    RenderFrame page = frame;
+    page.content = Content::nothing;
+    paint(drawn.empty() ? edited : *drawn.front(), page);
   }
+  if (drawn.empty()) return;
+  if (combines) {
+    if (!compositor_) compositor_ = std::make_unique<Compositor>();
+    compositor_->begin(frame.window_width, frame.window_height);
+  }
+  const auto draw = [&](const Layer& layer, RenderFrame drawing, const Layer* ink) {
+    if (!combines) return paint(layer, std::move(drawing));
+    drawing.over = true;
+    compositor_->begin_layer();
+    paint(layer, std::move(drawing));
+    compositor_->end_layer(ink ? static_cast<int>(ink->blending) : 0, ink ? ink->opacity : 1);
+  };
   if (scene.background.fill == Background::Fill::original && !edited_only) {
     RenderFrame as_it_was = frame;
     as_it_was.content = Content::original;
     for (const Layer* layer : drawn) {
-      draw(*layer, as_it_was);
+      draw(*layer, as_it_was, nullptr);
       as_it_was.over = true;
     }
   }
@@ -130,7 +152,15 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
       for (const OnionSkin& skin : skins)
         drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
     }
-    draw(*layer, std::move(drawing));
+    draw(*layer, std::move(drawing), layer);
+  }
+  if (combines) {
+    const auto px = [](double value) { return static_cast<int>(value); };
+    const int bottom = frame.window_height - px(frame.canvas_top) - px(frame.canvas_height),
+              first = static_cast<int>(std::lround(from * px(frame.canvas_width))),
+              last = static_cast<int>(std::lround(to * px(frame.canvas_width)));
+    compositor_->finish(px(frame.canvas_left) + first, bottom, last - first,
+                        px(frame.canvas_height));
   }
 }
 

@@ -6,9 +6,11 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/look/controls.h"
+#include "app/look/numbers.h"
 #include "app/panels/panels.h"
 #include "edit/actions/icons.h"
 #include "edit/edits/method_edits.h"
@@ -132,6 +134,32 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
   ImGui::PopID();
 }
 
+/// The opacity and the blending mode of the edited layer.
+void LayerPanel::draw_ink(Workspace& workspace) {
+  const Scene& scene = workspace.document.scene();
+  double percent = 100 * scene.layer().opacity;
+  const Change change = slider_row("Opacity", percent,
+                                   {.low = 0, .high = 100, .unit = "%", .neutral = 100.0});
+  if (change.changed) {
+    Layer layer = scene.layer();
+    layer.opacity = std::round(percent) / 100;
+    workspace.commit_or_amend_layers("Opacity", with_layer(scene, std::move(layer)));
+  }
+  if (change.ended) workspace.end_mergeable_step();
+  static constexpr const char* kLabels[] = {"Normal", "Multiply", "Screen", "Overlay", "Add"};
+  const auto mode = static_cast<size_t>(workspace.document.scene().layer().blending);
+  row_label("Blending", "How the layer's colors combine with those below it");
+  if (!begin_dropdown("##Blending", kLabels[mode])) return;
+  for (size_t i = 0; i < std::size(kLabels); ++i)
+    if (dropdown_row(kLabels[i], i == mode)) {
+      Layer layer = workspace.document.scene().layer();
+      layer.blending = static_cast<Blending>(i);
+      workspace.commit_layers("Blending mode",
+                              with_layer(workspace.document.scene(), std::move(layer)));
+    }
+  end_dropdown();
+}
+
 void LayerPanel::draw(Workspace& workspace, Thumbnails& thumbnails) {
   const size_t count = workspace.document.scene().layers.size();
   const float bleed = px(8);  // rows reach beyond the column of text
@@ -144,6 +172,7 @@ void LayerPanel::draw(Workspace& workspace, Thumbnails& thumbnails) {
     if (i < workspace.document.scene().layers.size()) draw_row(workspace, i, thumbnails);
   ImGui::EndChild();
   ImGui::PopStyleVar(2);
+  draw_ink(workspace);
   for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down"}) {
     action_icon_button(id, workspace);
     ImGui::SameLine(0, px(4));

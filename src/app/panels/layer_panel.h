@@ -18,6 +18,7 @@ class LayerPanel {
 
  private:
   void draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbnails);
+  void draw_ink(Workspace& workspace);
   void draw_name(Workspace& workspace, size_t layer, float width);
 
   int renamed_id_ = 0;  ///< id of the layer whose name is being typed; 0: none

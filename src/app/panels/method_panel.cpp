@@ -136,7 +136,7 @@ PanelAnswer method_section(Workspace& workspace, Preferences& preferences) {
   const ImVec2 below = ImGui::GetCursorPos();
   const float more = text_size(Type::strong, "More").x + px(20);
   ImGui::SetCursorPos({below.x + ImGui::GetContentRegionAvail().x - more - px(22),
-                       below.y - ImGui::GetStyle().ItemSpacing.y - px(22)});
+                       below.y - ImGui::GetStyle().ItemSpacing.y - px(26)});
   more_methods(workspace, method);
   ImGui::SetCursorPos(below);
   const float gap = px(8),

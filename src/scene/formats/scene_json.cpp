@@ -106,6 +106,16 @@ void read_single(const Reader& reader, Scene& scene) {
   scene.extra = reader.others({"format", "version", "animation", "background"}, kLayerKeys);
 }
 
+Blending read_blending(const Reader& reader) {
+  const std::string name = reader.text();
+  std::string known;
+  for (size_t i = 0; i < kBlendingNames.size(); ++i) {
+    if (name == kBlendingNames[i]) return static_cast<Blending>(i);
+    known += std::string(i > 0 ? ", " : "") + kBlendingNames[i];
+  }
+  reader.fail("'" + name + "' is not a blending mode; choose one of: " + known);
+}
+
 void read_layers(const Reader& reader, Scene& scene) {
   scene.extra = reader.others({"format", "version", "layers", "edited", "animation", "background"});
   const Reader list = reader["layers"].array();
@@ -119,7 +129,13 @@ void read_layers(const Reader& reader, Scene& scene) {
     if (item.has("name")) layer.name = item["name"].text();
     if (item.has("visible")) layer.visible = item["visible"].truth();
     if (item.has("locked")) layer.locked = item["locked"].truth();
-    layer.extra = item.others({"name", "visible", "locked"}, kLayerKeys);
+    if (item.has("opacity")) {
+      layer.opacity = item["opacity"].number();
+      if (!(layer.opacity >= 0 && layer.opacity <= 1))
+        item["opacity"].fail("expected a number from 0 to 1");
+    }
+    if (item.has("blending")) layer.blending = read_blending(item["blending"]);
+    layer.extra = item.others({"name", "visible", "locked", "opacity", "blending"}, kLayerKeys);
     scene.layers.emplace_back(std::move(layer));
   }
   const int last = static_cast<int>(list.size()) - 1;
@@ -201,6 +217,9 @@ Json layers_json(const Scene& scene) {
     if (!layer.name.empty()) item["name"] = layer.name;
     if (!layer.visible) item["visible"] = false;
     if (layer.locked) item["locked"] = true;
+    if (layer.opacity < 1) item["opacity"] = layer.opacity;
+    if (layer.blending != Blending::normal)
+      item["blending"] = kBlendingNames[static_cast<size_t>(layer.blending)];
     write_layer(layer, item);
     add_extra(item, layer.extra);
     layers.push_back(std::move(item));

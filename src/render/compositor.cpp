@@ -1,0 +1,107 @@
+// Half-float textures keep the sums of many faint layers exact enough for 8 bits.
+#include "render/compositor.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "render/gl.h"
+
+namespace holomorph {
+
+Compositor::Compositor() : program_(composite_program()) {
+  glGenVertexArrays(1, &array_);
+  glGenRenderbuffers(1, &stencil_);
+  for (Target* target : {&under_, &over_, &result_}) {
+    glGenFramebuffers(1, &target->framebuffer);
+    glGenTextures(1, &target->texture);
+  }
+}
+
+Compositor::~Compositor() {
+  for (Target* target : {&under_, &over_, &result_}) {
+    glDeleteFramebuffers(1, &target->framebuffer);
+    glDeleteTextures(1, &target->texture);
+  }
+  glDeleteRenderbuffers(1, &stencil_);
+  glDeleteVertexArrays(1, &array_);
+}
+
+void Compositor::resize(int width, int height) {
+  glBindRenderbuffer(GL_RENDERBUFFER, stencil_);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
+  for (Target* target : {&under_, &over_, &result_}) {
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, target->texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target->texture, 0);
+    if (target == &over_)
+      glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                                stencil_);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+      width_ = height_ = 0;
+      glBindFramebuffer(GL_FRAMEBUFFER, 0);
+      throw Error(ErrorKind::failed, "this graphics driver cannot draw into a texture");
+    }
+  }
+  width_ = width;
+  height_ = height;
+}
+
+void Compositor::begin(int width, int height) {
+  if (width != width_ || height != height_) resize(width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, under_.framebuffer);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Compositor::begin_layer() {
+  glBindFramebuffer(GL_FRAMEBUFFER, over_.framebuffer);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+void Compositor::combine(const Target& into, int blending, double opacity) {
+  glBindFramebuffer(GL_FRAMEBUFFER, into.framebuffer);
+  glUseProgram(program_.id());
+  const auto bind = [&](GLenum unit, const char* name, unsigned texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glUniform1i(program_.at(name), static_cast<GLint>(unit));
+  };
+  bind(1, "over_layer", over_.texture);
+  bind(0, "under_layers", under_.texture);
+  glUniform1i(program_.at("blending"), blending);
+  glUniform1f(program_.at("opacity"), static_cast<float>(opacity));
+  glViewport(0, 0, width_, height_);
+  glBindVertexArray(array_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+void Compositor::end_layer(int blending, double opacity) {
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  combine(result_, blending, opacity);
+  std::swap(under_, result_);
+  glEnable(GL_BLEND);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Compositor::finish(int left, int bottom, int width, int height) {
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(left, bottom, width, height);
+  combine({0, 0}, -1, 1);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace holomorph
