@@ -384,21 +384,20 @@ class Editor {
 
   void draw_canvas() {
     const CanvasColors colors = canvas_colors();
-    canvas_.draw(workspace_, {window_.framebuffer_width(), window_.framebuffer_height(),
-                              static_cast<double>(window_.framebuffer_width()) / window_.width(),
-                              colors.canvas, colors.page_a, colors.page_b,
-                              static_cast<double>(px(8)),
-                              has_high_contrast() ? 0 : static_cast<double>(px(12)),
-                              is_light() ? 0.2f : 0.4f});
+    canvas_.draw(workspace_,
+                 {window_.framebuffer_width(), window_.framebuffer_height(),
+                  static_cast<double>(window_.framebuffer_width()) / window_.width(), colors.canvas,
+                  colors.page_a, colors.page_b, static_cast<double>(px(8)),
+                  has_high_contrast() ? 0 : static_cast<double>(px(12)), is_light() ? 0.2f : 0.4f});
   }
 
   void draw_panels(const Input& input, PanelSizes sizes) {
     const double scale = window_.scale();
     const OverlayStyle style{canvas_colors(), scale};
     suppress_tooltips(palette_.open());
-    const PanelAnswer menus = draw_menu_bar(workspace_, preferences_, thumbnails_,
-                                            std::exchange(goes_to_menu_, false) ? &panel_focus_
-                                                                                : nullptr);
+    const PanelAnswer menus =
+        draw_menu_bar(workspace_, preferences_, thumbnails_,
+                      std::exchange(goes_to_menu_, false) ? &panel_focus_ : nullptr);
     StatusLine status;
     if (workspace_.document.empty()) {
       status.hint = "Open or drop a picture, or click a sample. " +
@@ -443,15 +442,19 @@ class Editor {
     if (preferences_.hints && first_steps_.done()) closed = true;
     // The start card already suggests the first step.
     if (preferences_.hints && !starts && !closed && !first_steps_.draw(workspace_, closed))
-      docked = first_steps_.draw_docked(
-          workspace_, static_cast<float>(sizes.inspector),
-          static_cast<float>(window_.height() - sizes.status), closed);
+      docked =
+          first_steps_.draw_docked(workspace_, static_cast<float>(sizes.inspector),
+                                   static_cast<float>(window_.height() - sizes.status), closed);
     if (closed) {
       preferences_.hints = false;
       files_.keep_preferences();
     }
-    const InspectorParts parts{layers_, thumbnails_, preferences_, canvas_.edited().heat_scale(),
-                               docks ? &start_card_ : nullptr, style};
+    const InspectorParts parts{layers_,
+                               thumbnails_,
+                               preferences_,
+                               canvas_.edited().heat_scale(),
+                               docks ? &start_card_ : nullptr,
+                               style};
     sizes.status += static_cast<double>(docked);
     answer(draw_inspector(workspace_, parts, sizes));
     draw_missing_picture(workspace_);
@@ -462,9 +465,11 @@ class Editor {
     status.hint = current_tool().hint(workspace_);
     if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
     if (panel_focus_.held())
-      status.hint = "Press Esc for the canvas; use arrow keys, Tab and Enter in this panel; press " +
-                    workspace_.actions.key_of("view.next_panel") + " for the next panel";
-    if (workspace_.shown.timeline.recording) status.hint = recording_hint(workspace_.shown.timeline);
+      status.hint =
+          "Press Esc for the canvas; use arrow keys, Tab and Enter in this panel; press " +
+          workspace_.actions.key_of("view.next_panel") + " for the next panel";
+    if (workspace_.shown.timeline.recording)
+      status.hint = recording_hint(workspace_.shown.timeline);
     if (input.inside) status.cursor = input.position;
     if (input.inside && !workspace_.at_rest())
       status.cursor_at_rest = rest_at(workspace_, input.position);

@@ -12,9 +12,11 @@ Path in_document_folder(const Document& document, const FileChooser& chooser,
 
 class Exports {
  public:
-  Exports(Workspace& workspace, Jobs& jobs, FileChooser& chooser,
-          const std::function<void()>& wake)
-      : workspace_(workspace), jobs_(jobs), chooser_(chooser), dialog_(workspace, jobs, chooser, wake) {}
+  Exports(Workspace& workspace, Jobs& jobs, FileChooser& chooser, const std::function<void()>& wake)
+      : workspace_(workspace),
+        jobs_(jobs),
+        chooser_(chooser),
+        dialog_(workspace, jobs, chooser, wake) {}
 
   /// Handles an action's request if it is an export.
   void answer(Request request);

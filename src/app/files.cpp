@@ -54,7 +54,9 @@ void Files::ask_about_changes_then(Then then) {
   questions_.ask(
       {"Unsaved changes",
        "Save changes to \"" + short_name(workspace_.document.name()) + "\" before closing?",
-       {{"Save", [this, then] { save(false, then); }}, {"Don't save", then, true}, {"Cancel", {}}}});
+       {{"Save", [this, then] { save(false, then); }},
+        {"Don't save", then, true},
+        {"Cancel", {}}}});
 }
 
 void Files::adopt(Document document) {

@@ -1,11 +1,13 @@
 // Long work runs as a job. Its result becomes one step of the history.
 #include "app/imports.h"
 
+#include <cmath>
 #include <map>
 #include <utility>
 
 #include "app/clipboard.h"
 #include "core/error.h"
+#include "edit/tools/layer_drag.h"
 #include "edit/tools/tool.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/svg_path.h"
@@ -36,12 +38,29 @@ double Imports::open_pixels() const {
   return workspace_.document.pictures().pixels();
 }
 
+/// Puts the picture of the edited layer into the middle of the view, with a box around it.
+Scene Imports::in_the_middle(Scene scene, const Image& picture) const {
+  Deformation boxed = with_box(scene.deformation(), picture);
+  const Complex middle(picture.width / 2.0, picture.height / 2.0),
+      by = workspace_.display.viewport.center - middle;
+  const Complex whole(std::round(by.real()), std::round(by.imag()));  // keeps the pixels sharp
+  return with_deformation(std::move(scene), moved_as_whole(std::move(boxed), whole));
+}
+
 bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) {
   Document& document = workspace_.document;
   const bool first = document.empty();
   document.add_pictures(added.pictures);
   Scene scene = first ? added.scene : with_layers_added(document.scene(), added.scene);
+  const bool placed = !first && added.scene.layers.size() == 1 && !scene.deformation().has_cage() &&
+                      document.pictures().of(scene.layer());
+  if (placed) scene = in_the_middle(std::move(scene), *document.pictures().of(scene.layer()));
   if (!workspace_.commit_layers(label, std::move(scene))) return false;
+  if (placed) {
+    workspace_.tools.active = ToolId::select;
+    const auto all = handles_of(workspace_.shown.deformation(), EditMode::pose);
+    workspace_.selection = Selection(all.begin(), all.end());
+  }
   workspace_.messages.complain(added.warning);
   if (!added.pictures.withheld().empty()) workspace_.request = Request::show_withheld;
   if (first)

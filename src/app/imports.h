@@ -37,6 +37,7 @@ class Imports {
  private:
   double open_pixels() const;
   bool add_layers_of(const LoadedScene& added, const std::string& label);
+  Scene in_the_middle(Scene scene, const Image& picture) const;
   void paste_picture();
   void ask_find_picture();
   std::string find_picture(const Path& path, const std::string& asked);

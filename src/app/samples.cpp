@@ -19,15 +19,21 @@ struct SampleRow {
 constexpr SampleRow kRows[] = {
     {"giraffe", "Giraffe", "Puppet: a lowered head",
      "Pins hold the feet, and others lower the head. Nothing grows or shrinks much."},
-    {"gecko", "Gecko", "Puppet: feet and tail", "Pins move the feet, head and tail, which keep their sizes."},
+    {"gecko", "Gecko", "Puppet: feet and tail",
+     "Pins move the feet, head and tail, which keep their sizes."},
     {"fish", "Fish", "Curved cage", "A curved cage with few points. Drag its tangent handles."},
-    {"octopus", "Octopus", "Puppet: ten pins", "Nothing folds, however far you pull the pins. Try to break it."},
-    {"snake", "Snake", "Stroke along the body", "One stroke along its body. Move, bend or redraw the line."},
-    {"heart", "Heart", "Onto a drawn outline", "A fish in the shape of a heart. Press U to draw another outline."},
-    {"tiger", "Tiger", "Onto a mask in space", "A painted face on a mask in space. Drag the mask to turn it."},
+    {"octopus", "Octopus", "Puppet: ten pins",
+     "Nothing folds, however far you pull the pins. Try to break it."},
+    {"snake", "Snake", "Stroke along the body",
+     "One stroke along its body. Move, bend or redraw the line."},
+    {"heart", "Heart", "Onto a drawn outline",
+     "A fish in the shape of a heart. Press U to draw another outline."},
+    {"tiger", "Tiger", "Onto a mask in space",
+     "A painted face on a mask in space. Drag the mask to turn it."},
     {"fern", "Fern", "Angles: it unrolls",
      "Turned corners curl the tip more than once around. Press Space to unroll it."},
-    {"sunflower", "Sunflower", "Elastic: leaves and head", "A cage, and pins that turn the leaves and the head."}};
+    {"sunflower", "Sunflower", "Elastic: leaves and head",
+     "A cage, and pins that turn the leaves and the head."}};
 constexpr double kThumbnail = 320;  ///< length of the longer side in pixels
 
 /// The folder with the samples. If the program is not installed, this is the folder in the source
@@ -124,8 +130,7 @@ void draw_frames(const Path& file, Job::Progress& progress,
   PictureOptions options;
   options.region = maker.motion_region([&] { return !progress.cancelled(); });
   if (!options.region) return;
-  options.scale =
-      kThumbnail / std::max({options.region->width(), options.region->height(), 1.0});
+  options.scale = kThumbnail / std::max({options.region->width(), options.region->height(), 1.0});
   const double length = length_of(*scene);
   for (int i = 0; i < kFrames && !progress.cancelled(); ++i) {
     options.time = length * i / (kFrames - 1);

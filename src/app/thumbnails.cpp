@@ -19,7 +19,8 @@ bool is_scene(const Path& file) {
 }
 
 Image thumbnail_of_file(const Path& file) {
-  if (!is_scene(file)) return reduced(decode_image(read_file(file), file.filename().string()), kLongestSide);
+  if (!is_scene(file))
+    return reduced(decode_image(read_file(file), file.filename().string()), kLongestSide);
   const LoadedScene loaded = load_scene(file);
   PictureOptions options;
   int longest = 1;
@@ -62,8 +63,8 @@ Image reduced(const Image& picture, int longest) {
 
 bool Thumbnails::can_show(const Path& file) {
   const std::string extension = lower_case(file.extension().string());
-  return is_scene(file) || std::ranges::find(picture_extensions(), extension) !=
-                               picture_extensions().end();
+  return is_scene(file) ||
+         std::ranges::find(picture_extensions(), extension) != picture_extensions().end();
 }
 
 const Texture* Thumbnails::of_file(const Path& file) {
@@ -134,8 +135,8 @@ void Thumbnails::start_next() {
 
 void Thumbnails::forget_oldest() {
   while (entries_.size() > kMostThumbnails)
-    entries_.erase(std::ranges::min_element(
-        entries_, {}, [](const auto& entry) { return entry.second.used; }));
+    entries_.erase(std::ranges::min_element(entries_, {},
+                                            [](const auto& entry) { return entry.second.used; }));
 }
 
 }  // namespace holomorph

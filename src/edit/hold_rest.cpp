@@ -22,8 +22,8 @@ Edges edges_of(const Mesh& mesh) {
   for (const Triangle& triangle : mesh.triangles)
     for (size_t k = 0; k < 3; ++k) {
       const int a = triangle[k], b = triangle[(k + 1) % 3];
-      const double length = std::abs(mesh.vertices[static_cast<size_t>(a)] -
-                                     mesh.vertices[static_cast<size_t>(b)]);
+      const double length =
+          std::abs(mesh.vertices[static_cast<size_t>(a)] - mesh.vertices[static_cast<size_t>(b)]);
       edges[static_cast<size_t>(a)].push_back({b, length});
       edges[static_cast<size_t>(b)].push_back({a, length});
     }

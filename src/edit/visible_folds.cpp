@@ -12,8 +12,8 @@
 namespace holomorph {
 namespace {
 
-constexpr int kLeastAlpha = 13;      // 5 % of 255
-constexpr double kPixel = 1;         // plane units squared
+constexpr int kLeastAlpha = 13;     // 5 % of 255
+constexpr double kPixel = 1;        // plane units squared
 constexpr int kSamplesPerSide = 8;  // of a triangle
 
 bool is_visible_at(const Image& picture, Complex z) {

@@ -307,8 +307,8 @@ const std::vector<Fold>& Workspace::folds() const {
 }
 
 std::optional<Complex> Workspace::overlap() const {
-  const bool has_depths = std::ranges::any_of(shown.deformation().pins,
-                                              [](const Pin& pin) { return pin.depth != 0; });
+  const bool has_depths =
+      std::ranges::any_of(shown.deformation().pins, [](const Pin& pin) { return pin.depth != 0; });
   return has_depths || !map().has_map() ? std::nullopt : map().injectivity().crossing;
 }
 
@@ -326,10 +326,10 @@ void Workspace::show_next_fold() {
   mode = EditMode::pose;
   const Complex at = visited_folds_[fold_];
   display.viewport.center = at;
-  const std::string number = visited_folds_.size() == 1
-                                 ? ""
-                                 : " (" + std::to_string(fold_ + 1) + " of " +
-                                       std::to_string(visited_folds_.size()) + ")";
+  const std::string number =
+      visited_folds_.size() == 1
+          ? ""
+          : " (" + std::to_string(fold_ + 1) + " of " + std::to_string(visited_folds_.size()) + ")";
   messages.complain("The picture folds over itself here" + number + ".", at);
 }
 

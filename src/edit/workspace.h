@@ -73,10 +73,11 @@ struct DisplayOptions {
 struct ToolSettings {
   ToolId active = ToolId::select;
   DragOptions drag;
-  bool snaps = false;        ///< whether drags stop where handles line up
-  double brush_radius = 60;  ///< plane units
+  bool snaps = false;           ///< whether drags stop where handles line up
+  double brush_radius = 60;     ///< plane units
   double brush_strength = 0.5;  ///< change of the stiffness per dab, in powers of ten
   AutoCageOptions auto_cage = {};
+  bool drags_layers = true;  ///< the Select tool drags layers, or else only handles
 };
 
 /// The map at the keyframe before or after the displayed time.

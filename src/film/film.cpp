@@ -13,8 +13,8 @@
 namespace holomorph {
 namespace {
 
-/// The key that a layer shows at a time, if it is no in-between: a key at this time, or the first or
-/// last key before or after all others.
+/// The key that a layer shows at a time, if it is no in-between: a key at this time, or the first
+/// or last key before or after all others.
 const Keyframe* key_shown_at(const Deformation& deformation, double time) {
   const std::vector<size_t> playing = playing_keys(deformation);
   if (playing.empty()) return nullptr;

@@ -135,9 +135,9 @@ Box filled_box(const RasterResult& result, double pixels_per_unit) {
 RasterResult cropped_to_filled(RasterResult result, double pixels_per_unit) {
   const PixelRange range = filled_range(result.image);
   if (range.empty()) return result;
-  RasterResult cropped{Image(range.right - range.left, range.bottom - range.top),
-                       result.corner + Complex(range.left, result.image.height - range.bottom) /
-                                           pixels_per_unit};
+  RasterResult cropped{
+      Image(range.right - range.left, range.bottom - range.top),
+      result.corner + Complex(range.left, result.image.height - range.bottom) / pixels_per_unit};
   for (int r = 0; r < cropped.image.height; ++r)
     std::memcpy(cropped.image.at(0, r), result.image.at(range.left, range.top + r),
                 4 * static_cast<size_t>(cropped.image.width));

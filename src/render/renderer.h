@@ -51,8 +51,8 @@ struct RenderFrame {
   Color backdrop{0.25f, 0.25f, 0.25f},
       other_backdrop{0.25f, 0.25f, 0.25f};  ///< of the checkerboard behind the picture
   double cell = 8;                          ///< width of its cells, framebuffer px
-  double shadow = 0;        ///< standard deviation of the page's shadow, framebuffer px; 0: none
-  float shadow_alpha = 0;   ///< its opacity
+  double shadow = 0;       ///< standard deviation of the page's shadow, framebuffer px; 0: none
+  float shadow_alpha = 0;  ///< its opacity
 };
 
 /// Owns the OpenGL objects. Needs a current OpenGL 3.3 core context during construction, calls and

@@ -22,7 +22,7 @@ struct Preferences {
   bool reduce_motion = false;  ///< no fades and no moving previews
   /// Which sections of the inspector are open, by title. Others have their usual state.
   std::map<std::string, bool> sections = {};
-  KeyNames keys;               ///< only actions whose keys differ from the defaults
+  KeyNames keys;  ///< only actions whose keys differ from the defaults
   std::vector<Path> recent;
   std::vector<Path> trusted = {};  ///< any scene may use the files in these folders
   bool operator==(const Preferences&) const = default;

@@ -6,7 +6,8 @@ namespace holomorph {
 
 bool Layer::operator==(const Layer& other) const {
   return name == other.name && visible == other.visible && locked == other.locked &&
-         opacity == other.opacity && blending == other.blending && image == other.image && deformation == other.deformation && extra == other.extra;
+         opacity == other.opacity && blending == other.blending && image == other.image &&
+         deformation == other.deformation && extra == other.extra;
 }
 
 Scene with_layer(Scene scene, Layer layer) {

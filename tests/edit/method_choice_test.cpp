@@ -84,8 +84,8 @@ TEST_CASE("Handles stay where they are displayed when the method changes") {
       choose_method(w, id);
       REQUIRE(chosen_method(w.shown.deformation()).id == id);
       for (Index i = 0; i < deformation.rest.size(); ++i)
-        CHECK(std::abs(w.shown.deformation().pose.vertex(i) -
-                       displayed[static_cast<size_t>(i)]) < 1);
+        CHECK(std::abs(w.shown.deformation().pose.vertex(i) - displayed[static_cast<size_t>(i)]) <
+              1);
       for (size_t i = 0; i < deformation.pins.size(); ++i)  // kept, even where they have no effect
         CHECK(w.shown.deformation().pins[i].pose == deformation.pins[i].pose);
       choose_method(w, "puppet");

@@ -1,12 +1,11 @@
 // The timeline: what is displayed at a time, what edits at a time do, and how time advances.
+#include "edit/timeline.h"
 #include "edit/actions/actions.h"
 #include "edit/edits/curve_edits.h"
 #include "edit/edits/method_edits.h"
-#include "edit/timeline.h"
 #include "support/desk.h"
 
 #include <catch2/catch.hpp>
-
 
 using namespace holomorph;
 

@@ -27,8 +27,8 @@ VectorXc folded_at(const Mesh& mesh, Complex z, double by) {
   const std::vector<char> on_boundary = boundary_marks(mesh);
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     f[static_cast<Index>(v)] = mesh.vertices[v];
-    if (!on_boundary[v] &&
-        (on_boundary[nearest] || std::abs(mesh.vertices[v] - z) < std::abs(mesh.vertices[nearest] - z)))
+    if (!on_boundary[v] && (on_boundary[nearest] ||
+                            std::abs(mesh.vertices[v] - z) < std::abs(mesh.vertices[nearest] - z)))
       nearest = v;
   }
   f[static_cast<Index>(nearest)] += by;

@@ -215,8 +215,8 @@ TEST_CASE("A film that loops leaves out a last frame that equals the first") {
   CHECK(frames_of_film(scene, 0, 12, true) == 13);  // ends at another pose
   const Folder folder;
   const Image image = gray();
-  const auto written = write_film(folder.path / "loop.png", closed, &image, {},
-                                  [](int, int) { return true; });
+  const auto written =
+      write_film(folder.path / "loop.png", closed, &image, {}, [](int, int) { return true; });
   REQUIRE(written);
   CHECK(written->frames == 24);
   CHECK(folder.names().size() == 24);
@@ -230,8 +230,8 @@ TEST_CASE("A cropped film covers what some frame fills") {
   FilmOptions options;
   options.picture.crops_to_filled = true;
   Scene scene = film_scene();
-  const auto film = write_film(folder.path / "dot.png", scene, &dot, options,
-                               [](int, int) { return true; });
+  const auto film =
+      write_film(folder.path / "dot.png", scene, &dot, options, [](int, int) { return true; });
   REQUIRE(film);
   // The square moves by 8 px to the right.
   CHECK(film->width >= 17);

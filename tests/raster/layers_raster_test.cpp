@@ -253,7 +253,8 @@ TEST_CASE("Opacity and blending modes agree with the formulas of the W3C") {
         for (size_t k = 0; k < 3 && all > 0; ++k) {
           const double cs = o[k] / 255.0, cb = u[k] / 255.0,
                        wanted = (a * (1 - b) * cs + b * (1 - a) * cb +
-                                 a * b * mixed(layer.blending, cs, cb)) / all;
+                                 a * b * mixed(layer.blending, cs, cb)) /
+                                all;
           // Premultiplied, because colors of nearly transparent pixels cannot be seen.
           farthest = std::max(farthest, all * std::abs(r[k] / 255.0 - wanted));
         }

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "app/canvas/layer_painter.h"
-#include "render/compositor.h"
 #include "edit/workspace.h"
+#include "render/compositor.h"
 #include "render/framebuffer.h"
 
 namespace holomorph {
@@ -56,7 +56,7 @@ class Canvas {
   void update_picture(Workspace& workspace, const Layer& layer);
 
   std::map<int, std::unique_ptr<LayerPainter>> painters_;  ///< by layer id
-  std::unique_ptr<Compositor> compositor_;  ///< made when a layer needs it
+  std::unique_ptr<Compositor> compositor_;                 ///< made when a layer needs it
   LayerPainter* edited_ = nullptr;
   bool forgets_ = false;  ///< delete the painters in the next frame; edited() is valid until then
   std::function<void()> wake_;

@@ -94,8 +94,7 @@ void draw_chip(ImDrawList& list, ImVec2 corner, const std::string& text) {
 void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool hovered,
               const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
-  if (hovered)
-    list.AddCircleFilled(at, 10 * s, (style.colors.pin & 0x00ffffff) | 0x60000000, 32);
+  if (hovered) list.AddCircleFilled(at, 10 * s, (style.colors.pin & 0x00ffffff) | 0x60000000, 32);
   if (pin.angle && !selected) {
     const float angle = static_cast<float>(*pin.angle), reach = 13 * s;
     const ImVec2 end(at.x + reach * std::cos(angle), at.y - reach * std::sin(angle));

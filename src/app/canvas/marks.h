@@ -13,8 +13,8 @@ void draw_faint_line(ImDrawList& list, const std::vector<ImVec2>& line, bool clo
                      const OverlayStyle& style);
 /// Draws a small text on a surface of its own.
 void draw_chip(ImDrawList& list, ImVec2 corner, const std::string& text);
-/// Draws a dashed line; with more than two points, it is closed. Rest shapes are dashed because not everyone can tell them from poses by
-/// their color.
+/// Draws a dashed line; with more than two points, it is closed. Rest shapes are dashed because not
+/// everyone can tell them from poses by their color.
 void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
                  const OverlayStyle& style);
 /// Draws a vertex as a square and any other control point as a disk.

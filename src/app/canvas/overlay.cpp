@@ -109,10 +109,10 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
   const EditMode mode = workspace.mode;
   const Deformation& deformation = workspace.shown.deformation();
   const bool selected = workspace.selection.contains(handle);
-  const ImU32 color = selected                   ? style.colors.selected
-                      : hovered                  ? style.colors.hover
+  const ImU32 color = selected                 ? style.colors.selected
+                      : hovered                ? style.colors.hover
                       : mode == EditMode::rest ? style.colors.rest
-                                                 : style.colors.stroke;
+                                               : style.colors.stroke;
   const std::vector<ImVec2> line =
       window_line(workspace, curve_of(deformation, handle.index, mode));
   draw_line(list, line, false, color, style, 2.25f);
@@ -128,9 +128,10 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
   }
   const float angle = std::atan2(end.y - from.y, end.x - from.x);
   for (const float turn : {2.6f, -2.6f})
-    draw_line(list,
-              {end, {end.x + 9 * s * std::cos(angle + turn), end.y + 9 * s * std::sin(angle + turn)}},
-              false, color, style, 2.25f);
+    draw_line(
+        list,
+        {end, {end.x + 9 * s * std::cos(angle + turn), end.y + 9 * s * std::sin(angle + turn)}},
+        false, color, style, 2.25f);
 }
 
 /// Draws the radius of a soft drag, and marks the handles that symmetry will move as well.
@@ -232,9 +233,9 @@ bool is_start_only(const Workspace& workspace) {
 /// How the cage is drawn.
 struct CageLook {
   ImU32 color;
-  bool faint;     ///< a thin line at half strength
-  bool points;    ///< with its points
-  bool hidden;    ///< not at all
+  bool faint;   ///< a thin line at half strength
+  bool points;  ///< with its points
+  bool hidden;  ///< not at all
 };
 
 /// Whether the pointer is on the canvas, or near the cage.
@@ -243,26 +244,23 @@ bool is_pointer_near_cage(const Workspace& workspace, bool anywhere) {
   const Complex pointer(io.MousePos.x, io.MousePos.y);
   if (io.WantCaptureMouse || !workspace.display.viewport.contains_px(pointer)) return false;
   constexpr double kNear = 3;  // in picking distances
-  return anywhere ||
-         nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
-                         workspace.display.viewport.plane_at_px(pointer))
-                     .distance *
-                 workspace.display.viewport.zoom <
-             kNear * workspace.display.handle_px;
+  return anywhere || nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
+                                     workspace.display.viewport.plane_at_px(pointer))
+                                 .distance *
+                             workspace.display.viewport.zoom <
+                         kNear * workspace.display.handle_px;
 }
 
 CageLook cage_look(const Workspace& workspace, const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   const bool rest = workspace.mode == EditMode::rest,
-             draws = workspace.tools.active == ToolId::pen ||
-                     workspace.tools.active == ToolId::angle,
+             draws =
+                 workspace.tools.active == ToolId::pen || workspace.tools.active == ToolId::angle,
              acts = has_cage_handles(deformation, workspace.mode),
              start_only = is_start_only(workspace);
   CageLook look{rest ? style.colors.rest : style.colors.pose, start_only, true, false};
-  const bool selected =
-      std::ranges::any_of(workspace.selection, [](const Handle& handle) {
-        return handle.kind == Handle::Kind::cage;
-      });
+  const bool selected = std::ranges::any_of(
+      workspace.selection, [](const Handle& handle) { return handle.kind == Handle::Kind::cage; });
   if (rest || draws || selected || !deformation.has_cage()) return look;
   look.points = acts && is_pointer_near_cage(workspace, !start_only);
   look.faint = !look.points;

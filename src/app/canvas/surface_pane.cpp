@@ -6,9 +6,9 @@
 
 #include "app/look/controls.h"
 #include "app/panels/panels.h"
-#include "edit/actions/icons.h"
 #include "core/error.h"
 #include "core/mesh/flatten.h"
+#include "edit/actions/icons.h"
 #include "scene/formats/outline_import.h"
 
 namespace holomorph {

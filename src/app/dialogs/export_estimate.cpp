@@ -9,9 +9,9 @@
 namespace holomorph {
 namespace {
 
-constexpr double kSmall = 480;      // longest side of the small picture, pixels
-constexpr double kGrowth = 0.9;     // exponent of the pixels
-constexpr double kLaterFrame = 0.6; // size of a later frame of a film, relative to the first
+constexpr double kSmall = 480;       // longest side of the small picture, pixels
+constexpr double kGrowth = 0.9;      // exponent of the pixels
+constexpr double kLaterFrame = 0.6;  // size of a later frame of a film, relative to the first
 
 double estimate(const ExportEstimate::Question& question, const Pictures& pictures) {
   const Scene& scene = question.scene;

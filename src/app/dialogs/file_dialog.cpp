@@ -200,15 +200,15 @@ void FileDialog::draw_places(Clicked& clicked) {
   place(icon_named("folder"), "Home", home());
   for (const char* name : {"Desktop", "Documents", "Pictures", "Downloads"})
     place(icon_named("folder"), name, home() / name);
-  if (!scene_folder_.empty())
-    place(icon_named("picture"), "This scene", scene_folder_);
+  if (!scene_folder_.empty()) place(icon_named("picture"), "This scene", scene_folder_);
   for (const Path& folder : recent_folders_)
     place(icon_named("clock"), folder.filename().string(), folder);
   place(icon_named("folder"), "Computer", "/");
 }
 
 void FileDialog::draw_path(Clicked& clicked) {
-  if (icon_button("Up", icon_named("up"), "The folder above")) clicked.folder = folder_.parent_path();
+  if (icon_button("Up", icon_named("up"), "The folder above"))
+    clicked.folder = folder_.parent_path();
   ImGui::SameLine(0, px(4));
   if (text_field("##folder", typed_folder_, "Folder", -1) && !typed_folder_.empty()) {
     const Path typed(typed_folder_);
@@ -311,11 +311,9 @@ void FileDialog::draw() {
     open_ = false;
     return;
   }
-  const float message_height =
-      std::max(ImGui::GetTextLineHeight(),
-               ImGui::CalcTextSize(message_.c_str(), nullptr, false,
-                                   ImGui::GetContentRegionAvail().x)
-                   .y);
+  const float message_height = std::max(
+      ImGui::GetTextLineHeight(),
+      ImGui::CalcTextSize(message_.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y);
   Clicked clicked;
   draw_list(clicked, px(96) + message_height + (question_.asks_scale ? px(36) : 0));
   if (opens || focus_) ImGui::SetKeyboardFocusHere();
@@ -325,7 +323,8 @@ void FileDialog::draw() {
   if (ImGui::IsItemEdited()) confirming_ = false;
   if (question_.asks_scale) {
     double percent = 100 * picture_scale_;
-    if (slider_row("Scale", percent, {10, 400, "%", 0, true, 100.0})) picture_scale_ = percent / 100;
+    if (slider_row("Scale", percent, {10, 400, "%", 0, true, 100.0}))
+      picture_scale_ = percent / 100;
   }
   if (!message_.empty())
     wrapped_text(message_);

@@ -23,7 +23,7 @@ void Questions::draw() {
   size_t focused = open_->default_answer;
   const auto answer_button = [&](size_t i, float width) {
     const bool is_default = i == open_->default_answer;
-    const ButtonKind kind = is_default           ? ButtonKind::primary
+    const ButtonKind kind = is_default            ? ButtonKind::primary
                             : answers[i].destroys ? ButtonKind::flat_danger
                                                   : ButtonKind::secondary;
     if (button(answers[i].label, kind, width)) given = i;

@@ -111,8 +111,8 @@ bool toggle_switch(const std::string& name, bool on) {
   const float t = eased(ImGui::GetItemID(), on), r = px(9), y = item.box.GetCenter().y;
   const ImVec2 from(item.box.Min.x, y - r), to(item.box.Max.x, y + r);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(from, to,
-                     faded(blended(is_light() ? c.control : c.pressed, c.accent_fill, t)), r);
+  list.AddRectFilled(from, to, faded(blended(is_light() ? c.control : c.pressed, c.accent_fill, t)),
+                     r);
   if (has_high_contrast()) list.AddRect(from, to, faded(c.edge), r);
   const float x = from.x + r + t * (to.x - from.x - 2 * r);
   list.AddCircleFilled({x, y}, px(7), faded(IM_COL32_WHITE), 24);
@@ -134,15 +134,15 @@ bool check_box(const std::string& label, bool& on) {
   const Pressed item =
       press(label, {side + gap + text_size(Type::body, plain_name(label)).x, height});
   if (item.pressed) on = !on;
-  const ImVec2 from(item.box.Min.x, item.box.GetCenter().y - side / 2), to = from + ImVec2(side, side);
+  const ImVec2 from(item.box.Min.x, item.box.GetCenter().y - side / 2),
+      to = from + ImVec2(side, side);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 edge = on ? c.accent_fill : item.hovered ? c.accent : c.control;
   list.AddRectFilled(from, to, faded(on ? c.accent_fill : c.field), px(4));
   list.AddRect(from, to, faded(edge), px(4), 0, 1.5f);
   if (on) draw_icon(list, icon_named("check"), (from + to) * 0.5f, c.on_accent, Type::caption);
-  draw_text(list, Type::body,
-            {to.x + gap, item.box.GetCenter().y - font(Type::body)->FontSize / 2}, c.text,
-            plain_name(label));
+  draw_text(list, Type::body, {to.x + gap, item.box.GetCenter().y - font(Type::body)->FontSize / 2},
+            c.text, plain_name(label));
   draw_focus_ring(px(4));
   name_item(plain_name(label));
   return item.pressed;
@@ -235,7 +235,8 @@ bool dropdown_row(const std::string& label, bool chosen, bool enabled) {
   if (chosen) ImGui::SetItemDefaultFocus();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float middle = at.y + height / 2;
-  if (chosen) draw_icon(list, icon_named("check"), {at.x + px(14), middle}, c.accent, Type::caption);
+  if (chosen)
+    draw_icon(list, icon_named("check"), {at.x + px(14), middle}, c.accent, Type::caption);
   draw_text(list, Type::body, {at.x + px(28), middle - font(Type::body)->FontSize / 2}, c.text,
             plain_name(label));
   name_item(plain_name(label));
@@ -280,7 +281,8 @@ bool icon_button(const std::string& name, const char* icon, const std::string& t
 void action_icon_button(const std::string& id, Workspace& workspace) {
   const Action& action = workspace.actions.named(id);
   ImGui::BeginDisabled(!action.enabled(workspace));
-  const bool pressed = icon_button(id, action.icon, "", action.checked && action.checked(workspace));
+  const bool pressed =
+      icon_button(id, action.icon, "", action.checked && action.checked(workspace));
   tooltip_of(action);
   ImGui::EndDisabled();
   if (pressed) run(id, workspace);
@@ -301,8 +303,8 @@ bool begin_section(const std::string& title, const std::string& state, ImU32 sta
   list.PopClipRect();
   const float middle = at.y + height / 2;
   draw_text(list, Type::strong, {at.x, middle - font(Type::strong)->FontSize / 2}, c.text, shown);
-  draw_icon(list, open ? icon_named("down") : icon_named("right"),
-            {at.x + width - px(8), middle}, item.hovered ? c.text : c.muted, Type::caption);
+  draw_icon(list, open ? icon_named("down") : icon_named("right"), {at.x + width - px(8), middle},
+            item.hovered ? c.text : c.muted, Type::caption);
   if (!state.empty()) {
     const float room = width - px(32) - text_size(Type::strong, shown).x;
     const std::string text = fitted_text(state, room);
@@ -342,7 +344,8 @@ bool color_field(const std::string& name, std::array<std::uint8_t, 3>& color, fl
 
 void bar_separator(float height) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float tall = px(20), x = std::round(at.x + px(12)), y = std::round(at.y + (height - tall) / 2);
+  const float tall = px(20), x = std::round(at.x + px(12)),
+              y = std::round(at.y + (height - tall) / 2);
   ImGui::GetWindowDrawList()->AddLine({x, y}, {x, y + tall}, faded(theme_colors().line));
   ImGui::Dummy({px(25), height});
 }

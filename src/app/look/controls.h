@@ -51,8 +51,8 @@ bool button(const std::string& label, ButtonKind kind = ButtonKind::secondary, f
 /// A button of less height, for toolbars and rows.
 bool small_button(const std::string& label, ButtonKind kind = ButtonKind::secondary);
 /// A square button with an icon. `on` gives it an accent tint.
-bool icon_button(const std::string& name, const char* icon, const std::string& tip,
-                 bool on = false, float size = 0, Type icon_size = Type::body);
+bool icon_button(const std::string& name, const char* icon, const std::string& tip, bool on = false,
+                 float size = 0, Type icon_size = Type::body);
 /// A button for an action, with its icon, tooltip, and state. Runs the action if it is clicked.
 void action_icon_button(const std::string& id, Workspace& workspace);
 

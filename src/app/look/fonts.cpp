@@ -61,8 +61,8 @@ struct Pixels {
   unsigned char* rgba = nullptr;
   int width = 0, height = 0;
   void put(int x, int y, unsigned char alpha) {
-    unsigned char* pixel = rgba + 4 * (static_cast<size_t>(y) * static_cast<size_t>(width) +
-                                       static_cast<size_t>(x));
+    unsigned char* pixel =
+        rgba + 4 * (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x));
     std::fill_n(pixel, 3, static_cast<unsigned char>(255));
     pixel[3] = alpha;
   }
@@ -71,8 +71,7 @@ struct Pixels {
 void put_icons(Pixels& pixels, const IconSheet& sheet, const std::vector<int>& rectangles) {
   const Image image = decode_image(std::string(sheet.png), "icons");
   for (size_t icon = 0; icon < rectangles.size(); ++icon) {
-    const ImFontAtlasCustomRect& at =
-        *ImGui::GetIO().Fonts->GetCustomRectByIndex(rectangles[icon]);
+    const ImFontAtlasCustomRect& at = *ImGui::GetIO().Fonts->GetCustomRectByIndex(rectangles[icon]);
     for (int y = 0; y < sheet.size; ++y)
       for (int x = 0; x < sheet.size; ++x) {
         pixels.put(at.X + x, at.Y + y, image.at(static_cast<int>(icon) * sheet.size + x, y)[3]);

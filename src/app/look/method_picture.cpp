@@ -42,9 +42,8 @@ class Sketch {
     constexpr int kSteps = 24;
     for (int i = 0; i <= kSteps; ++i) {
       const float t = static_cast<float>(i) / kSteps, u = 1 - t;
-      const ImVec2 z(
-          u * u * u * a.x + 3 * u * u * t * b.x + 3 * u * t * t * c.x + t * t * t * d.x,
-          u * u * u * a.y + 3 * u * u * t * b.y + 3 * u * t * t * c.y + t * t * t * d.y);
+      const ImVec2 z(u * u * u * a.x + 3 * u * u * t * b.x + 3 * u * t * t * c.x + t * t * t * d.x,
+                     u * u * u * a.y + 3 * u * u * t * b.y + 3 * u * t * t * c.y + t * t * t * d.y);
       list_.AddCircleFilled(at(z.x, z.y), (width + t * (end_width - width)) * unit_ / 2,
                             faded(ink_), 16);
     }
@@ -116,11 +115,16 @@ void draw_cage(Sketch& sketch, bool straight) {
       sketch.square(x, y);
     return;
   }
-  sketch.line({{36, -1.5f}, {61, 17.5f}, {57.5f, 32}, {50, 50.5f}, {22, 50.5f}, {14.5f, 32},
-               {11, 17.5f}},
-              true);
-  for (const auto& [x, y] : {std::pair(36.0f, -1.5f), {61, 17.5f}, {57.5f, 32}, {50, 50.5f},
-                             {22, 50.5f}, {14.5f, 32}, {11, 17.5f}})
+  sketch.line(
+      {{36, -1.5f}, {61, 17.5f}, {57.5f, 32}, {50, 50.5f}, {22, 50.5f}, {14.5f, 32}, {11, 17.5f}},
+      true);
+  for (const auto& [x, y] : {std::pair(36.0f, -1.5f),
+                             {61, 17.5f},
+                             {57.5f, 32},
+                             {50, 50.5f},
+                             {22, 50.5f},
+                             {14.5f, 32},
+                             {11, 17.5f}})
     sketch.square(x, y);
 }
 

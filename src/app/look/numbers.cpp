@@ -81,8 +81,7 @@ Change track(const std::string& name, double& value, const Number& number, float
   list.AddRectFilled({box.Min.x, y - thick}, {box.Max.x, y + thick},
                      faded(has_high_contrast() ? c.faint : c.edge), thick);
   list.AddRectFilled({box.Min.x, y - thick}, {x, y + thick}, faded(c.accent_fill), thick);
-  if (hovered || imgui.ActiveId == id)
-    list.AddCircleFilled({x, y}, px(12), faded(c.accent, 0.25f));
+  if (hovered || imgui.ActiveId == id) list.AddCircleFilled({x, y}, px(12), faded(c.accent, 0.25f));
   list.AddCircleFilled({x, y + 1}, knob / 2 + 0.5f, faded(IM_COL32(0, 0, 0, 70)), 24);
   list.AddCircleFilled({x, y}, knob / 2, faded(IM_COL32_WHITE), 24);
   draw_focus_ring(px(4));
@@ -126,9 +125,9 @@ Change number_field(const std::string& name, double& value, const Number& number
   const ImGuiID id = ImGui::GetID(name.c_str());
   const bool types = ImGui::TempInputIsActive(id);
   const bool bounded = std::isfinite(number.high - number.low);
-  const double speed = number.speed > 0                ? number.speed
-                       : bounded                       ? (number.high - number.low) / 300
-                                                       : std::pow(10.0, -number.decimals);
+  const double speed = number.speed > 0 ? number.speed
+                       : bounded        ? (number.high - number.low) / 300
+                                        : std::pow(10.0, -number.decimals);
   char format[16];
   std::snprintf(format, sizeof format, "%%.%df", number.decimals);
   ImGui::PushStyleColor(ImGuiCol_Text, types ? color_of(theme_colors().text) : ImVec4(0, 0, 0, 0));

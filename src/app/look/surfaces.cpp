@@ -110,12 +110,11 @@ void begin_dialog_buttons(float buttons) {
   const ImGuiWindow& window = *ImGui::GetCurrentWindow();
   ImGui::Dummy({0, px(4)});
   const float y = ImGui::GetCursorScreenPos().y;
-  ImGui::GetWindowDrawList()->AddLine({window.Pos.x + 1, y},
-                                      {window.Pos.x + window.Size.x - 1, y},
+  ImGui::GetWindowDrawList()->AddLine({window.Pos.x + 1, y}, {window.Pos.x + window.Size.x - 1, y},
                                       faded(theme_colors().line));
   ImGui::Dummy({0, px(4)});
-  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(),
-                                ImGui::GetWindowContentRegionMax().x - buttons));
+  ImGui::SetCursorPosX(
+      std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - buttons));
 }
 
 bool begin_menu_popup(const char* id) {

@@ -9,9 +9,8 @@
 namespace holomorph {
 namespace {
 
-constexpr std::string_view kKeys[] = {"Shift", "Ctrl", "Alt",  "Esc",       "Enter", "Del",
-                                      "Tab",   "Space", "Backspace", "F1",  "F2",    "F6",
-                                      "F10",   "Home"};
+constexpr std::string_view kKeys[] = {"Shift", "Ctrl",      "Alt", "Esc", "Enter", "Del", "Tab",
+                                      "Space", "Backspace", "F1",  "F2",  "F6",    "F10", "Home"};
 
 bool is_letter(char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
@@ -30,8 +29,7 @@ size_t end_of_key(const std::string& text, size_t begin) {
 
 /// Removes the last character of a text in UTF-8.
 void drop_character(std::string& text) {
-  while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80)
-    text.pop_back();
+  while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) text.pop_back();
   if (!text.empty()) text.pop_back();
 }
 

@@ -260,8 +260,8 @@ ImVec4 color_of(ImU32 color) {
 }
 
 ImU32 faded(ImU32 color, float alpha) {
-  const float a = static_cast<float>(color >> IM_COL32_A_SHIFT & 255) * alpha *
-                  ImGui::GetStyle().Alpha;
+  const float a =
+      static_cast<float>(color >> IM_COL32_A_SHIFT & 255) * alpha * ImGui::GetStyle().Alpha;
   return (color & ~IM_COL32_A_MASK) | static_cast<ImU32>(std::lround(a)) << IM_COL32_A_SHIFT;
 }
 

@@ -51,7 +51,8 @@ ImU32 blended(ImU32 from, ImU32 to, float t);
 ImVec4 color_of(ImU32 color);
 
 /// Eases the appearance of something identified by `id`. Returns nearly 0 in the first frame in
-/// which it is drawn, and 1 after 150 ms or with reduced motion. Starts again if it was absent for a frame.
+/// which it is drawn, and 1 after 150 ms or with reduced motion. Starts again if it was absent for
+/// a frame.
 float appearance(ImGuiID id);
 /// Moves a displayed value in 0 to 1 to its goal within 150 ms.
 float eased(ImGuiID id, bool on);

@@ -29,7 +29,8 @@ std::optional<ImVec2> place_beside_picture(const Workspace& workspace, ImVec2 si
   const Complex a = view.px_at_plane({box.left, box.top}),
                 b = view.px_at_plane({box.right, box.bottom});
   const ImRect picture(static_cast<float>(a.real()) - margin, static_cast<float>(a.imag()) - margin,
-                       static_cast<float>(b.real()) + margin, static_cast<float>(b.imag()) + margin);
+                       static_cast<float>(b.real()) + margin,
+                       static_cast<float>(b.imag()) + margin);
   const float x0 = canvas.Min.x + margin, x1 = canvas.Max.x - margin - size.x,
               y0 = canvas.Min.y + margin, y1 = canvas.Max.y - margin - size.y;
   for (const ImVec2& at : {ImVec2(x0, y0), {x1, y0}, {x0, y1}, {x1, y1}}) {
@@ -46,8 +47,8 @@ void FirstSteps::follow(const Workspace& workspace, bool exported) {
   const bool posed = deformation.has_cage() &&
                      whole_pose_of(deformation) != whole_pose_of(at_rest(deformation)),
              bent = posed && workspace.document.history().can_undo(),
-             held = deformation.has_cage() && (deformation.pins.size() >= 2 || posed ||
-                                               deformation.pins.empty());
+             held = deformation.has_cage() &&
+                    (deformation.pins.size() >= 2 || posed || deformation.pins.empty());
   const size_t now = exported ? 3 : bent ? 2 : held ? 1 : 0;
   step_ = std::max(step_, now);
 }
@@ -65,8 +66,8 @@ bool FirstSteps::draw_contents(const Workspace& workspace) const {
       {"Bend it", by_cage ? "Drag a cage point, or press " + actions.key_of("tool.pin") +
                                 " and drag a part of the picture."
                           : "Press another part and drag it."},
-      {"Keep it", "Press Export for a picture, or " + actions.key_of("file.save") +
-                      " to save the scene."}};
+      {"Keep it",
+       "Press Export for a picture, or " + actions.key_of("file.save") + " to save the scene."}};
   const Step& step = steps[std::min<size_t>(step_, 2)];
   const ImVec2 at = ImGui::GetCursorPos();
   {
@@ -76,8 +77,8 @@ bool FirstSteps::draw_contents(const Workspace& workspace) const {
   }
   const ImVec2 below = ImGui::GetCursorPos();
   const std::string number = std::to_string(std::min<size_t>(step_, 2) + 1) + " of 3";
-  ImGui::SetCursorPos({at.x + ImGui::GetContentRegionAvail().x - text_size(Type::body, number).x,
-                       at.y});
+  ImGui::SetCursorPos(
+      {at.x + ImGui::GetContentRegionAvail().x - text_size(Type::body, number).x, at.y});
   muted_text(number);
   ImGui::SetCursorPos(below);
   caption(step.how);

@@ -109,8 +109,8 @@ PanelAnswer draw_inspector(Workspace& workspace, const InspectorParts& parts,
     bool& open = parts.preferences.sections.try_emplace(id, opens).first->second;
     const bool was = open;
     if (has_to) open = true;
-    const bool shows = begin_section(title + "###" + id, state.text,
-                                     state.color ? state.color : c.muted, open);
+    const bool shows =
+        begin_section(title + "###" + id, state.text, state.color ? state.color : c.muted, open);
     if (open != was && !has_to) answer.preferences_changed = true;
     if (!shows) {
       ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);

@@ -138,8 +138,8 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
 void LayerPanel::draw_ink(Workspace& workspace) {
   const Scene& scene = workspace.document.scene();
   double percent = 100 * scene.layer().opacity;
-  const Change change = slider_row("Opacity", percent,
-                                   {.low = 0, .high = 100, .unit = "%", .neutral = 100.0});
+  const Change change =
+      slider_row("Opacity", percent, {.low = 0, .high = 100, .unit = "%", .neutral = 100.0});
   if (change.changed) {
     Layer layer = scene.layer();
     layer.opacity = std::round(percent) / 100;

@@ -85,7 +85,9 @@ StateText fold_state(const Workspace& workspace) {
   if (!workspace.map().has_map()) return {};
   if (const size_t count = workspace.folds().size(); count > 0) {
     const bool flipped = workspace.map().injectivity().turning_number < 0;
-    return {flipped ? "Flipped over" : count > 1 ? std::to_string(count) + " folds" : "Folds",
+    return {flipped     ? "Flipped over"
+            : count > 1 ? std::to_string(count) + " folds"
+                        : "Folds",
             c.error};
   }
   return {"No folds", c.success};
@@ -102,8 +104,8 @@ void injectivity_section(Workspace& workspace) {
     tooltip_of(workspace.actions.named("view.fold"));
   };
   const bool folds = !workspace.folds().empty();
-  colored_text(state.color, std::string(folds ? icon_named("warning") : icon_named("check")) + " " +
-                                state.text);
+  colored_text(state.color,
+               std::string(folds ? icon_named("warning") : icon_named("check")) + " " + state.text);
   if (folds) show_me("Show me");
   if (!folds && workspace.overlap()) {
     colored_text(c.warning, "Parts overlap");

@@ -26,8 +26,7 @@ void action_entry(const std::string& id, MenuDrawing& drawing) {
   const Action& action = drawing.workspace.actions.named(id);
   const std::string keys = action.keys.empty() ? "" : text_of(action.keys[0]);
   const bool checked = action.checked && action.checked(drawing.workspace);
-  const bool chosen =
-      menu_entry(action.label, keys, checked, action.enabled(drawing.workspace));
+  const bool chosen = menu_entry(action.label, keys, checked, action.enabled(drawing.workspace));
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && *action.hint)
     drawing.answer.hint = action.hint;
   if (chosen) run(action, drawing.workspace);
@@ -37,7 +36,8 @@ void recent_menu(MenuDrawing& drawing) {
   const std::vector<Path>& recent = drawing.preferences.recent;
   if (!begin_menu("Open recent", !recent.empty())) return;
   for (size_t i = 0; i < recent.size(); ++i)
-    if (recent_row(static_cast<int>(i), recent[i], drawing.thumbnails)) drawing.answer.open = recent[i];
+    if (recent_row(static_cast<int>(i), recent[i], drawing.thumbnails))
+      drawing.answer.open = recent[i];
   end_menu();
 }
 
@@ -109,7 +109,8 @@ void draw_scene_name(const Workspace& workspace, float menus_end, float buttons,
                     state = document.path().empty() ? "  \u2014  Not saved"
                             : document.modified()   ? "  \u2014  Edited"
                                                     : "";
-  const float long_name = text_size(Type::strong, name).x, long_state = text_size(Type::body, state).x;
+  const float long_name = text_size(Type::strong, name).x,
+              long_state = text_size(Type::body, state).x;
   float x = (width - long_name - long_state) / 2;
   x = std::max(x, menus_end + px(16));
   if (x + long_name + long_state > buttons - px(16)) return;
@@ -125,8 +126,7 @@ PanelAnswer draw_menu_bar(Workspace& workspace, Preferences& preferences, Thumbn
   PanelAnswer answer;
   MenuDrawing drawing{workspace, preferences, thumbnails, answer};
   const float height = px(36);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                      {px(8), (height - ImGui::GetFontSize()) / 2});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {px(8), (height - ImGui::GetFontSize()) / 2});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {px(10), px(8)});
   const bool open = ImGui::BeginMainMenuBar();
   ImGui::PopStyleVar(1);

@@ -117,8 +117,8 @@ bool method_card(const std::string& id, const std::string& label, const std::str
   list.AddRectFilled(from, to, faded(surface), px(8));
   list.AddRect(from, to, faded(chosen ? c.accent : c.line), px(8), 0, chosen ? px(2) : 1);
   draw_method_picture(list, picture, {(from.x + to.x) / 2, from.y + px(35)},
-                      std::min(1.0f, (width - px(8)) / px(72)),
-                      chosen ? c.text : c.control, surface);
+                      std::min(1.0f, (width - px(8)) / px(72)), chosen ? c.text : c.control,
+                      surface);
   draw_centered_text(list, chosen ? Type::strong : Type::body, {from.x, to.y - px(26)},
                      {to.x, to.y - px(4)}, chosen || hovered ? c.text : c.muted, label);
   draw_focus_ring(px(8));
@@ -130,8 +130,8 @@ PanelAnswer method_section(Workspace& workspace, Preferences& preferences) {
   PanelAnswer answer;
   const Method& method = chosen_method(workspace.shown.deformation());
   // Without a cage, the first pin chooses the method.
-  const bool has_method = workspace.shown.deformation().has_cage() ||
-                          method.id != usual_method(MethodUse::cage).id;
+  const bool has_method =
+      workspace.shown.deformation().has_cage() || method.id != usual_method(MethodUse::cage).id;
   // "More" stands in the title's row.
   const ImVec2 below = ImGui::GetCursorPos();
   const float more = text_size(Type::strong, "More").x + px(20);
@@ -139,8 +139,7 @@ PanelAnswer method_section(Workspace& workspace, Preferences& preferences) {
                        below.y - ImGui::GetStyle().ItemSpacing.y - px(26)});
   more_methods(workspace, method);
   ImGui::SetCursorPos(below);
-  const float gap = px(8),
-              width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3);
+  const float gap = px(8), width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3);
   for (size_t i = 0; i < std::size(kCards); ++i) {
     const Method& each = method_named(kCards[i]);
     if (i > 0) ImGui::SameLine(0, gap);
@@ -154,8 +153,9 @@ PanelAnswer method_section(Workspace& workspace, Preferences& preferences) {
   if (can_prevent_folds(method)) {
     const bool prevents = prevents_folds(workspace.shown.deformation());
     const ScopedLabelWidth wide(px(112));
-    if (switch_row("Prevent folds", prevents, "Keep sizes and shapes within limits, so that "
-                                              "nothing folds. This is proved for every frame."))
+    if (switch_row("Prevent folds", prevents,
+                   "Keep sizes and shapes within limits, so that "
+                   "nothing folds. This is proved for every frame."))
       run("map.fold_free", workspace);
   }
   bool& open = preferences.sections.try_emplace("settings", false).first->second;

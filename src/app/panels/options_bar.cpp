@@ -52,8 +52,8 @@ void action_option(const std::string& id, const std::string& label, Workspace& w
     list.AddRectFilled(at, at + ImVec2(width, height), faded(on ? c.accent_tint : c.hover), px(6));
   const ImU32 ink = on ? c.accent : hovered ? c.text : c.muted;
   draw_icon(list, action.icon, at + ImVec2(px(16), height / 2), ink);
-  draw_text(list, Type::strong,
-            at + ImVec2(px(30), (height - font(Type::strong)->FontSize) / 2), ink, label);
+  draw_text(list, Type::strong, at + ImVec2(px(30), (height - font(Type::strong)->FontSize) / 2),
+            ink, label);
   draw_focus_ring(px(6));
   name_item(label);
   tooltip_of(action);
@@ -71,9 +71,8 @@ std::vector<Index> selected_pins(const Workspace& workspace) {
 }
 
 bool selects_cage_points(const Workspace& workspace) {
-  return std::ranges::any_of(workspace.selection, [](const Handle& handle) {
-    return handle.kind == Handle::Kind::cage;
-  });
+  return std::ranges::any_of(
+      workspace.selection, [](const Handle& handle) { return handle.kind == Handle::Kind::cage; });
 }
 
 const ParameterSpec* spec_named(const Method& method, const std::string& key) {
@@ -90,29 +89,29 @@ void add_pin_fit(OptionGroups& groups, Workspace& workspace) {
     return parameter(method, chosen_parameters(workspace.shown.deformation()), spec.key);
   };
   if (exact)
-    groups.push_back({"mode", [&workspace, &method, exact, value] {
-                        inline_label("Mode", exact->hint);
-                        const bool is_exact = value(*exact) != 0;
-                        if (const auto clicked = segmented("Mode", {"Soft", "Exact"}, is_exact ? 1 : 0))
-                          workspace.commit("Pins: " + std::string(*clicked ? "exact" : "soft"),
-                                           with_parameter(workspace.shown.deformation(), method.id,
-                                                          exact->key, *clicked ? 1.0 : 0.0));
-                      }});
+    groups.push_back(
+        {"mode", [&workspace, &method, exact, value] {
+           inline_label("Mode", exact->hint);
+           const bool is_exact = value(*exact) != 0;
+           if (const auto clicked = segmented("Mode", {"Soft", "Exact"}, is_exact ? 1 : 0))
+             workspace.commit("Pins: " + std::string(*clicked ? "exact" : "soft"),
+                              with_parameter(workspace.shown.deformation(), method.id, exact->key,
+                                             *clicked ? 1.0 : 0.0));
+         }});
   if (weight)
-    groups.push_back({"stiffness", [&workspace, &method, weight, value] {
-                        ImGui::BeginDisabled(!is_used(method,
-                                                      chosen_parameters(workspace.shown.deformation()),
-                                                      *weight));
-                        inline_label("Stiffness", "How closely the picture follows the pins");
-                        DisplayedParameter shown = displayed(*weight, value(*weight));
-                        const Change change =
-                            slider("##Stiffness", shown.value, shown.number, px(148));
-                        apply_change(workspace, change, "Pin stiffness", [&](const Deformation& base) {
-                          return with_parameter(base, method.id, weight->key,
-                                                parameter_of(*weight, shown.value));
-                        });
-                        ImGui::EndDisabled();
-                      }});
+    groups.push_back(
+        {"stiffness", [&workspace, &method, weight, value] {
+           ImGui::BeginDisabled(
+               !is_used(method, chosen_parameters(workspace.shown.deformation()), *weight));
+           inline_label("Stiffness", "How closely the picture follows the pins");
+           DisplayedParameter shown = displayed(*weight, value(*weight));
+           const Change change = slider("##Stiffness", shown.value, shown.number, px(148));
+           apply_change(workspace, change, "Pin stiffness", [&](const Deformation& base) {
+             return with_parameter(base, method.id, weight->key,
+                                   parameter_of(*weight, shown.value));
+           });
+           ImGui::EndDisabled();
+         }});
 }
 
 void set_rotation(Workspace& workspace, const std::vector<Index>& pins, bool fixed) {
@@ -130,8 +129,9 @@ void add_pin_groups(OptionGroups& groups, Workspace& workspace) {
   const std::vector<Index> pins = selected_pins(workspace);
   groups.push_back({"rotation", [&workspace, pins] {
                       ImGui::BeginDisabled(pins.empty() || workspace.mode == EditMode::rest);
-                      inline_label("Rotation", "Auto: the picture turns freely around the pin. "
-                                               "Fixed: the pin sets rotation and scale");
+                      inline_label("Rotation",
+                                   "Auto: the picture turns freely around the pin. "
+                                   "Fixed: the pin sets rotation and scale");
                       std::optional<size_t> chosen;
                       if (!pins.empty())
                         chosen = workspace.shown.deformation().pins[pins[0]].angle ? 1 : 0;
@@ -192,20 +192,19 @@ void add_cage_point_groups(OptionGroups& groups, Workspace& workspace) {
 }
 
 void add_brush_groups(OptionGroups& groups, Workspace& workspace) {
-  groups.push_back({"size", [&workspace] {
-                      inline_label("Size");
-                      slider("##Size", workspace.tools.brush_radius,
-                             {1, 2000, "px", 0, true, 60.0}, px(200));
-                    }});
+  groups.push_back(
+      {"size", [&workspace] {
+         inline_label("Size");
+         slider("##Size", workspace.tools.brush_radius, {1, 2000, "px", 0, true, 60.0}, px(200));
+       }});
   groups.push_back({"strength", [&workspace] {
                       inline_label("Strength", "How much one dab stiffens");
                       double percent = 100 * workspace.tools.brush_strength;
                       if (slider("##Strength", percent, {5, 100, "%", 0, false, 50.0}, px(164)))
                         workspace.tools.brush_strength = percent / 100;
                     }});
-  groups.push_back({"clear", [&workspace] {
-                      action_option("edit.remove_stiffness", "Clear", workspace);
-                    }});
+  groups.push_back(
+      {"clear", [&workspace] { action_option("edit.remove_stiffness", "Clear", workspace); }});
 }
 
 void add_auto_cage_groups(OptionGroups& groups, Workspace& workspace) {
@@ -228,18 +227,16 @@ void add_parameter(OptionGroups& groups, Workspace& workspace, const char* key) 
   const Method& method = chosen_method(workspace.shown.deformation());
   const ParameterSpec* spec = spec_named(method, key);
   if (!spec) return;
-  groups.push_back({spec->key.c_str(), [&workspace, &method, spec] {
-                      inline_label(spec->label, spec->hint);
-                      DisplayedParameter shown = displayed(
-                          *spec, parameter(method, chosen_parameters(workspace.shown.deformation()),
-                                           spec->key));
-                      const Change change =
-                          slider("##" + spec->label, shown.value, shown.number, px(148));
-                      apply_change(workspace, change, spec->label, [&](const Deformation& base) {
-                        return with_parameter(base, method.id, spec->key,
-                                              parameter_of(*spec, shown.value));
-                      });
-                    }});
+  groups.push_back(
+      {spec->key.c_str(), [&workspace, &method, spec] {
+         inline_label(spec->label, spec->hint);
+         DisplayedParameter shown = displayed(
+             *spec, parameter(method, chosen_parameters(workspace.shown.deformation()), spec->key));
+         const Change change = slider("##" + spec->label, shown.value, shown.number, px(148));
+         apply_change(workspace, change, spec->label, [&](const Deformation& base) {
+           return with_parameter(base, method.id, spec->key, parameter_of(*spec, shown.value));
+         });
+       }});
 }
 
 void add_angle_groups(OptionGroups& groups, Workspace& workspace) {
@@ -252,11 +249,11 @@ void add_angle_groups(OptionGroups& groups, Workspace& workspace) {
 void add_drag_groups(OptionGroups& groups, Workspace& workspace) {
   DragOptions& drag = workspace.tools.drag;
   if (drag.soft)
-    groups.push_back({"reach", [&drag] {
-                        inline_label("Radius", "Points within this radius follow a drag");
-                        slider("##Radius", drag.reach, {kMinReach, 2000, "px", 0, true, 100.0},
-                               px(200));
-                      }});
+    groups.push_back(
+        {"reach", [&drag] {
+           inline_label("Radius", "Points within this radius follow a drag");
+           slider("##Radius", drag.reach, {kMinReach, 2000, "px", 0, true, 100.0}, px(200));
+         }});
 }
 
 void add_key_groups(OptionGroups& groups, Workspace& workspace) {
@@ -283,9 +280,8 @@ void add_key_groups(OptionGroups& groups, Workspace& workspace) {
                             "Blending", with_animation(workspace.document.scene(), settings));
                       }
                     }});
-  groups.push_back({"delete", [&workspace] {
-                      action_option("time.delete_key", "Delete", workspace);
-                    }});
+  groups.push_back(
+      {"delete", [&workspace] { action_option("time.delete_key", "Delete", workspace); }});
 }
 
 bool has_chosen_key(const Workspace& workspace) {
@@ -310,8 +306,7 @@ Options options_of(Workspace& workspace) {
     return options;
   }
   const auto reset = [&] {
-    groups.push_back(
-        {"reset", [&workspace] { action_option("edit.reset", "Reset", workspace); }});
+    groups.push_back({"reset", [&workspace] { action_option("edit.reset", "Reset", workspace); }});
   };
   switch (workspace.tools.active) {
     case ToolId::pin:
@@ -342,9 +337,8 @@ Options options_of(Workspace& workspace) {
       options = {icon_named("outline"), "Outline", {}};
       add_parameter(groups, workspace, "softness");
       add_parameter(groups, workspace, "smoothness");
-      groups.push_back({"remove", [&workspace] {
-                          action_option("edit.remove_outline", "Remove", workspace);
-                        }});
+      groups.push_back(
+          {"remove", [&workspace] { action_option("edit.remove_outline", "Remove", workspace); }});
       break;
     case ToolId::angle:
       options = {icon_named("angle"), "Angles", {}};
@@ -358,6 +352,15 @@ Options options_of(Workspace& workspace) {
       } else if (selects_cage_points(workspace)) {
         add_cage_point_groups(groups, workspace);
       }
+      groups.push_back(
+          {"drags", [&workspace] {
+             inline_label("Drag",
+                          "What a drag of the picture moves: the layer under "
+                          "the pointer, or nothing but points and pins");
+             bool& layers = workspace.tools.drags_layers;
+             if (const auto clicked = segmented("Drag", {"Layers", "Handles"}, layers ? 0 : 1))
+               layers = *clicked == 0;
+           }});
       add_drag_groups(groups, workspace);
       if (workspace.selection.empty())
         groups.push_back({"nothing", [] { inline_label("Nothing selected"); }});

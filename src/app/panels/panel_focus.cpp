@@ -14,9 +14,9 @@ namespace holomorph {
 namespace {
 
 /// Names of windows, in the order in which F6 visits them.
-constexpr const char* kPanels[] = {"Welcome",   "Start",  "Missing picture",
-                                   "Inspector", "Timeline",    "Surface",
-                                   "Options", "Toolbar",   "First steps", "Compare methods"};
+constexpr const char* kPanels[] = {"Welcome",     "Start",          "Missing picture", "Inspector",
+                                   "Timeline",    "Surface",        "Options",         "Toolbar",
+                                   "First steps", "Compare methods"};
 constexpr const char* kMenuBar = "##MainMenuBar";  // ImGui's name
 
 ImGuiWindow* shown(const char* name) {

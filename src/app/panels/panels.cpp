@@ -76,8 +76,7 @@ void draw_thumbnail(ImDrawList& list, const Texture* texture, ImVec2 at, float s
                 fit = (side - px(4)) / std::max(w, h);
     const ImVec2 corner(at.x + (side - w * fit) / 2, at.y + (side - h * fit) / 2);
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture->id())), corner,
-                  {corner.x + w * fit, corner.y + h * fit}, {0, 0}, {1, 1},
-                  faded(IM_COL32_WHITE));
+                  {corner.x + w * fit, corner.y + h * fit}, {0, 0}, {1, 1}, faded(IM_COL32_WHITE));
   }
   list.AddRect({at.x - 1, at.y - 1}, {to.x + 1, to.y + 1}, faded(theme_colors().line), rounding);
 }

@@ -32,12 +32,10 @@ void position_row(Workspace& workspace, Position position, MovedTo moved_to) {
   const Change along_x = number_field("##x", x, number, width, "X");
   ImGui::SameLine(0, gap);
   const Change along_y = number_field("##y", y, number, width, "Y");
-  apply_change(workspace, along_x, "Move", [&](const Deformation& s) {
-    return moved_to(s, Complex(x, position(s).imag()));
-  });
-  apply_change(workspace, along_y, "Move", [&](const Deformation& s) {
-    return moved_to(s, Complex(position(s).real(), y));
-  });
+  apply_change(workspace, along_x, "Move",
+               [&](const Deformation& s) { return moved_to(s, Complex(x, position(s).imag())); });
+  apply_change(workspace, along_y, "Move",
+               [&](const Deformation& s) { return moved_to(s, Complex(position(s).real(), y)); });
 }
 
 /// Draws the angles of a corner and the tension of the edge after it.
@@ -49,21 +47,20 @@ void corner_rows(Workspace& workspace, Index vertex) {
   double turn = (pose.before + pose.after) / 2 / kDegree,
          opening = corner_opening(deformation, vertex) / kDegree, tension = 100 * pose.tension;
   const Number angle{.low = -720, .high = 720, .unit = "\u00b0", .neutral = 0.0};
-  apply_change(workspace, slider_row("Turn", turn, angle), "Turn corner", [&](const Deformation& s) {
-    const PoseCorner now = corner_at(s, vertex);
-    return corner_turned(s, vertex, turn * kDegree - (now.before + now.after) / 2);
-  });
-  apply_change(workspace, slider_row("Opening", opening, angle), "Open corner",
+  apply_change(workspace, slider_row("Turn", turn, angle), "Turn corner",
                [&](const Deformation& s) {
-                 return corner_opened(s, vertex,
-                                      (opening * kDegree - corner_opening(s, vertex)) / 2);
+                 const PoseCorner now = corner_at(s, vertex);
+                 return corner_turned(s, vertex, turn * kDegree - (now.before + now.after) / 2);
                });
-  apply_change(workspace,
-               slider_row("Tension", tension,
-                          {.low = 0, .high = 100, .unit = "%", .neutral = 100.0},
-                          "How straight the next edge is"),
-               "Tension",
-               [&](const Deformation& s) { return with_tension(s, vertex, tension / 100); });
+  apply_change(
+      workspace, slider_row("Opening", opening, angle), "Open corner", [&](const Deformation& s) {
+        return corner_opened(s, vertex, (opening * kDegree - corner_opening(s, vertex)) / 2);
+      });
+  apply_change(
+      workspace,
+      slider_row("Tension", tension, {.low = 0, .high = 100, .unit = "%", .neutral = 100.0},
+                 "How straight the next edge is"),
+      "Tension", [&](const Deformation& s) { return with_tension(s, vertex, tension / 100); });
 }
 
 /// If the gap is visible, says how far short of the pin's target the picture stops.
@@ -86,12 +83,11 @@ void pin_rows(Workspace& workspace, Index pin) {
   ImGui::BeginDisabled(!shown.angle);
   double degrees = shown.angle.value_or(shown.turn.value_or(0)) / kDegree,
          percent = 100 * shown.scale;
-  apply_change(workspace,
-               slider_row("Rotation", degrees,
-                          {.low = -180, .high = 180, .unit = "\u00b0", .neutral = 0.0},
-                          "Set Rotation to Fixed to use this"),
-               "Rotate pin",
-               [&](const Deformation& s) { return turned(s, pin, degrees * kDegree); });
+  apply_change(
+      workspace,
+      slider_row("Rotation", degrees, {.low = -180, .high = 180, .unit = "\u00b0", .neutral = 0.0},
+                 "Set Rotation to Fixed to use this"),
+      "Rotate pin", [&](const Deformation& s) { return turned(s, pin, degrees * kDegree); });
   apply_change(
       workspace,
       slider_row("Scale", percent,
@@ -114,8 +110,8 @@ void step_row(const char* label, const Number& number, Workspace& workspace, con
   const Change change = slider_row(label, value, number);
   apply_change(workspace, change, step, [&](const Deformation& s) { return edit(s, value); });
   const bool active = workspace.shown.preview.has_value() && ImGui::IsAnyItemActive();
-  storage.SetFloat(id, static_cast<float>((change.changed || active) && !change.ended ? value
-                                                                                      : neutral));
+  storage.SetFloat(
+      id, static_cast<float>((change.changed || active) && !change.ended ? value : neutral));
 }
 
 /// Draws sliders that rotate and scale the selection about its center.
@@ -125,17 +121,16 @@ void turn_and_scale(Workspace& workspace) {
   step_row("Rotate by", {.low = -180, .high = 180, .unit = "\u00b0", .neutral = 0.0}, workspace,
            "Rotate", [&](const Deformation& s, double degrees) {
              const double angle = degrees * kDegree;
-             return transformed(s, selection,
-                                Affine::turning(angle, center_of(s, selection, mode)), angle, mode);
+             return transformed(s, selection, Affine::turning(angle, center_of(s, selection, mode)),
+                                angle, mode);
            });
-  step_row("Scale by",
-           {.low = 10, .high = 1000, .unit = "%", .logarithmic = true, .neutral = 100.0}, workspace,
-           "Scale", [&](const Deformation& s, double percent) {
-             const double scale = std::max(percent, 1.0) / 100;
-             return transformed(s, selection,
-                                Affine::scaling(scale, scale, center_of(s, selection, mode)), 0,
-                                mode);
-           });
+  step_row(
+      "Scale by", {.low = 10, .high = 1000, .unit = "%", .logarithmic = true, .neutral = 100.0},
+      workspace, "Scale", [&](const Deformation& s, double percent) {
+        const double scale = std::max(percent, 1.0) / 100;
+        return transformed(s, selection,
+                           Affine::scaling(scale, scale, center_of(s, selection, mode)), 0, mode);
+      });
 }
 
 void one_handle(Workspace& workspace, Handle handle) {

@@ -107,7 +107,8 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, const Panel
   RightPart right(display.x - px(4), top, height);
   if (!workspace.document.empty()) draw_figures(right, workspace, status);
   float x = px(12);
-  const float end = right.left() - px(12), text_top = top + (height - font(Type::caption)->FontSize) / 2;
+  const float end = right.left() - px(12),
+              text_top = top + (height - font(Type::caption)->FontSize) / 2;
   const auto fits = [](const std::string& text, float room) {
     const ScopedFont small(Type::caption);
     return fitted_text(text, room);

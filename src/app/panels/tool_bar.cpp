@@ -15,10 +15,21 @@ namespace holomorph {
 namespace {
 
 /// The actions from top to bottom; an empty string is a line. Those after "|" are at the bottom.
-constexpr const char* kTools[] = {"tool.select", "tool.pin",      "tool.brush",   "",
-                                  "tool.pen",    "tool.stroke",   "tool.outline", "tool.angle",
-                                  "",            "edit.soft",     "edit.symmetry", "edit.snap",
-                                  "|",           "view.timeline", "help.keys"};
+constexpr const char* kTools[] = {"tool.select",
+                                  "tool.pin",
+                                  "tool.brush",
+                                  "",
+                                  "tool.pen",
+                                  "tool.stroke",
+                                  "tool.outline",
+                                  "tool.angle",
+                                  "",
+                                  "edit.soft",
+                                  "edit.symmetry",
+                                  "edit.snap",
+                                  "|",
+                                  "view.timeline",
+                                  "help.keys"};
 
 bool is_tool(std::string_view id) {
   return id.substr(0, 5) == "tool.";

@@ -29,10 +29,10 @@ bool action_row(const char* icon, const std::string& label, const std::string& k
   draw_icon(list, icon, {at.x + px(10), middle}, hovered ? c.text : c.muted);
   draw_text(list, Type::body, {at.x + px(32), middle - font(Type::body)->FontSize / 2}, c.text,
             label);
-  draw_text(list, Type::caption,
-            {at.x + size.x - text_size(Type::caption, key).x,
-             middle - font(Type::caption)->FontSize / 2},
-            c.muted, key);
+  draw_text(
+      list, Type::caption,
+      {at.x + size.x - text_size(Type::caption, key).x, middle - font(Type::caption)->FontSize / 2},
+      c.muted, key);
   draw_focus_ring(px(6));
   name_item(label);
   return clicked;
@@ -79,9 +79,9 @@ std::pair<bool, bool> draw_tile(const Tile& tile, ImVec2 size) {
                 h = static_cast<float>(tile.texture->height());
     const float fit = std::min((size.x - px(24)) / w, (size.y - px(24)) / h);
     const ImVec2 corner((from.x + to.x - w * fit) / 2, (from.y + to.y - h * fit) / 2);
-    list.AddImage(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(tile.texture->id())), corner,
-        {corner.x + w * fit, corner.y + h * fit}, {0, 0}, {1, 1}, faded(IM_COL32_WHITE));
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(tile.texture->id())),
+                  corner, {corner.x + w * fit, corner.y + h * fit}, {0, 0}, {1, 1},
+                  faded(IM_COL32_WHITE));
   }
   list.AddRect(from, to, faded(hovered || focused ? c.accent : c.line), px(8), 0,
                hovered || focused ? px(2) : 1);
@@ -113,8 +113,7 @@ Columns columns_of(float room, float least, float gap, size_t most) {
   const float fit = std::floor((room + gap) / (least + gap));
   Columns columns;
   columns.count = std::clamp<size_t>(static_cast<size_t>(std::max(fit, 1.0f)), 1, most);
-  columns.width =
-      std::floor((room + gap) / static_cast<float>(columns.count)) - gap;
+  columns.width = std::floor((room + gap) / static_cast<float>(columns.count)) - gap;
   return columns;
 }
 

@@ -198,7 +198,8 @@ Method outline_method() {
       .label = "Onto an outline",
       .summary = "Fills the outline that you draw.",
       .hint = "Maps the cage and the picture inside onto an outline that you draw.",
-      .parameters = {in_percent(number("softness", "Softness", "0 % keeps all angles, 100 % hardly any", 0, 0, 1)),
+      .parameters = {in_percent(number("softness", "Softness",
+                                       "0 % keeps all angles, 100 % hardly any", 0, 0, 1)),
                      used_with(
                          "published", 0,
                          by_decades("smoothness", "Smoothness",

@@ -381,7 +381,8 @@ Method strokes_method() {
                                 "Higher values resist growing and shrinking; strokes slide along "
                                 "their lines instead",
                                 1e-2, 1e-5, 1),
-                     in_percent(number("softness", "Softness", "0 % keeps all angles, 100 % hardly any", 0, 0, 1)),
+                     in_percent(number("softness", "Softness",
+                                       "0 % keeps all angles, 100 % hardly any", 0, 0, 1)),
                      by_decades("pin_weight", "Pin weight",
                                 "Higher values meet the pins more closely", 1, 1e-3, 1e3)},
       .uses_pins = true,

@@ -7,6 +7,7 @@
 #include "edit/edits/method_edits.h"
 #include "edit/method_choice.h"
 #include "edit/picture_cage.h"
+#include "edit/tools/layer_drag.h"
 #include "edit/tools/tool.h"
 
 namespace holomorph {
@@ -36,11 +37,7 @@ void cage_from_picture(Workspace& w) {
 /// Makes the picture's rectangle the cage and selects all its points: the box around the selection
 /// then moves, scales and rotates the whole picture.
 void make_box(Workspace& w) {
-  const Image& image = *w.document.image();
-  const double width = image.width, height = image.height;
-  const Points corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
-  Scene scene = with_deformation(
-      w.document.scene(), with_method_for(with_cage(w.shown.own(), corners), MethodUse::cage));
+  Scene scene = with_deformation(w.document.scene(), with_box(w.shown.own(), *w.document.image()));
   // The original behind a picture fills the gaps of bent parts. Behind a moved picture, it would be
   // a second one.
   if (scene.layers.size() == 1 && scene.background.fill == Background::Fill::original)

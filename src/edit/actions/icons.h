@@ -9,13 +9,13 @@ namespace holomorph {
 
 /// The names of the files in assets/icons, sorted. The build checks that they agree.
 inline constexpr const char* kIconNames[] = {
-    "add",     "angle",     "attach",   "auto-key", "brush",  "cage",   "check",  "clock",
-    "close",   "compare",   "down",     "duplicate", "export", "eye",    "eye-off", "film",
-    "fit",     "folder",    "help",     "key",      "lock",   "loop",   "mesh",   "minus",
-    "more",    "next",      "onion",    "outline",  "pause",  "pen",    "picture", "pin",
-    "play",    "previous",  "redo",     "reset",    "right",  "search", "select", "snap",
-    "soft",    "stroke",    "symmetry", "to-end",   "to-start", "trash", "undo",  "unlock",
-    "up",      "warning"};
+    "add",   "angle",    "attach",   "auto-key",  "brush",    "cage",   "check",   "clock",
+    "close", "compare",  "down",     "duplicate", "export",   "eye",    "eye-off", "film",
+    "fit",   "folder",   "help",     "key",       "lock",     "loop",   "mesh",    "minus",
+    "more",  "next",     "onion",    "outline",   "pause",    "pen",    "picture", "pin",
+    "play",  "previous", "redo",     "reset",     "right",    "search", "select",  "snap",
+    "soft",  "stroke",   "symmetry", "to-end",    "to-start", "trash",  "undo",    "unlock",
+    "up",    "warning"};
 
 inline constexpr unsigned kFirstIcon = 0xe000;  ///< the code point of the first name
 

@@ -13,7 +13,8 @@ const std::vector<MenuItem>& menus() {
         {"file.save"},
         {"file.save_as"},
         separator,
-        {"Import", {{"layer.add"}, {"file.import_cage"}, {"file.import_pose"}, {"file.import_outline"}}},
+        {"Import",
+         {{"layer.add"}, {"file.import_cage"}, {"file.import_pose"}, {"file.import_outline"}}},
         {"file.export"},
         {"file.export_again"},
         {"Export more", {{"file.export_film"}, {"file.export_svg"}, {"file.export_surface"}}},
@@ -44,7 +45,11 @@ const std::vector<MenuItem>& menus() {
           {"tool.outline"},
           {"tool.angle"}}},
         {"Dragging",
-         {{"edit.soft"}, {"edit.soft_less"}, {"edit.soft_more"}, {"edit.symmetry"}, {"edit.snap"}}}}},
+         {{"edit.soft"},
+          {"edit.soft_less"},
+          {"edit.soft_more"},
+          {"edit.symmetry"},
+          {"edit.snap"}}}}},
       {"Layer",
        {{"layer.replace"},
         {"layer.double"},
@@ -76,7 +81,13 @@ const std::vector<MenuItem>& menus() {
           {"edit.delete_plain"},
           {"cage.fill"}}},
         {"Pins",
-         {{"edit.hold_rest"}, separator, {"edit.pin_up"}, {"edit.pin_down"}, separator, {"edit.free_angle"}, {"cage.bake"}}},
+         {{"edit.hold_rest"},
+          separator,
+          {"edit.pin_up"},
+          {"edit.pin_down"},
+          separator,
+          {"edit.free_angle"},
+          {"cage.bake"}}},
         {"Remove", {{"edit.remove_stiffness"}, {"edit.remove_outline"}}},
         {"Iterations", {{"map.play"}, {"map.step"}, {"map.restart"}}}}},
       {"Time",
@@ -119,13 +130,10 @@ const std::vector<MenuItem>& menus() {
 
 const std::vector<MenuItem>& context_menu() {
   static const MenuItem separator{""};
-  static const std::vector<MenuItem> all{{"edit.delete"},     {"edit.reset"},
-                                         separator,           {"edit.pin_up"},
-                                         {"edit.pin_down"},   {"edit.free_angle"},
-                                         {"cage.corner"},     {"cage.raise"},
-                                         {"cage.lower"},      separator,
-                                         {"edit.select_all"}, {"view.frame"},
-                                         {"view.fit"},        {"cage.rest"}};
+  static const std::vector<MenuItem> all{
+      {"edit.delete"},     {"edit.reset"},  separator,      {"edit.pin_up"}, {"edit.pin_down"},
+      {"edit.free_angle"}, {"cage.corner"}, {"cage.raise"}, {"cage.lower"},  separator,
+      {"edit.select_all"}, {"view.frame"},  {"view.fit"},   {"cage.rest"}};
   return all;
 }
 

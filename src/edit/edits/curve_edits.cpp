@@ -71,9 +71,8 @@ void move_tangent(Deformation& deformation, Handle tangent, Complex to, EditMode
 
 Deformation tangent_moved(Deformation deformation, Handle tangent, Complex to, EditMode mode,
                           bool breaks) {
-  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
-    move_tangent(edited, tangent, to, mode, breaks);
-  });
+  return edited_in(mode, std::move(deformation),
+                   [&](Deformation& edited) { move_tangent(edited, tangent, to, mode, breaks); });
 }
 
 namespace {

@@ -242,9 +242,8 @@ Points pulled(const Points& curve, bool closed, size_t point, Complex by, double
 }
 
 Deformation with_curve(Deformation deformation, Index stroke, Points drawn, EditMode mode) {
-  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
-    curve(edited, stroke, mode) = std::move(drawn);
-  });
+  return edited_in(mode, std::move(deformation),
+                   [&](Deformation& edited) { curve(edited, stroke, mode) = std::move(drawn); });
 }
 
 Deformation with_outline(Deformation deformation, Points outline,

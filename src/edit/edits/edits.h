@@ -44,8 +44,8 @@ std::vector<Handle> handles_of(const Deformation& deformation, EditMode mode);
 
 /// The control points next to a vertex, which move with it; empty for other handles.
 std::vector<Handle> adjacent_tangents(const Cage& cage, Handle handle);
-/// Moves one handle, without the control points next to it. A stroke moves as a whole. See rest_edits.h for
-/// what moving the rest shape does to the pose.
+/// Moves one handle, without the control points next to it. A stroke moves as a whole. See
+/// rest_edits.h for what moving the rest shape does to the pose.
 void shift(Deformation& deformation, Handle handle, Complex by, EditMode mode);
 /// Moves handles. The control points next to a vertex move with it.
 Deformation moved(Deformation deformation, const Selection& selection, Complex by, EditMode mode);

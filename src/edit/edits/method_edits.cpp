@@ -81,8 +81,7 @@ Deformation with_chosen_method(Deformation deformation, const std::string& id) {
 
 Deformation with_folds_prevented(Deformation deformation, bool on) {
   const std::string id = chosen_method(deformation).id;
-  if (on == prevents_folds(deformation) || !can_prevent_folds(method_named(id)))
-    return deformation;
+  if (on == prevents_folds(deformation) || !can_prevent_folds(method_named(id))) return deformation;
   if (on) {
     deformation = with_method(std::move(deformation), bounded().id);
     deformation.parameters[kReference] = *reference_to(id);

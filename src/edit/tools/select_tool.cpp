@@ -2,6 +2,7 @@
 // double-click and deletes handles by Alt-click.
 #include "edit/actions/actions.h"
 #include "edit/tools/handle_tool.h"
+#include "edit/tools/layer_drag.h"
 
 namespace holomorph {
 namespace {
@@ -13,6 +14,7 @@ class SelectTool final : public HandleTool {
   void input(const Input& input, Workspace& workspace) override {
     if (follow(input, workspace)) return;
     if (box_.active()) return box_.follow(input, workspace);
+    if (layer_.active()) return layer_.follow(input, workspace);
     if (marquee_start_) return follow_marquee(input, workspace);
     find(input, workspace);
     ring_.hover(input, workspace);
@@ -24,6 +26,9 @@ class SelectTool final : public HandleTool {
       if (const auto hit = edge_at(workspace, input.px)) insert_at(workspace, *hit);
     } else if (box_.inside() && !input.mods.shift) {
       box_.start(input, workspace);
+    } else if (workspace.tools.drags_layers && !input.mods.shift &&
+               layer_.start(input, workspace)) {
+      hover_.reset();
     } else {
       marquee_start_ = input.px;
       marquee_end_ = input.px;
@@ -33,10 +38,11 @@ class SelectTool final : public HandleTool {
   void cancel(Workspace& workspace) override {
     HandleTool::cancel(workspace);
     box_.cancel(workspace);
+    layer_.cancel(workspace);
     marquee_start_.reset();
   }
   bool busy() const override {
-    return HandleTool::busy() || box_.active() || marquee_start_.has_value();
+    return HandleTool::busy() || box_.active() || layer_.active() || marquee_start_.has_value();
   }
   ToolOverlay overlay() const override {
     ToolOverlay overlay = HandleTool::overlay();
@@ -53,8 +59,10 @@ class SelectTool final : public HandleTool {
   bool has_ring() const override { return true; }
 
   std::string hint(const Workspace& workspace) const override {
+    if (layer_.active()) return "Hold Shift to move along one axis";
     if (!workspace.shown.deformation().has_cage())
-      return needs_a_cage(workspace, "Bending needs a cage");
+      return "Drag a layer to move it; " + workspace.actions.key_of("tool.pin") +
+             " sets pins that bend it";
     if (drag_.active()) return "Hold Shift to move along one axis";
     if (box_.active() || ((box_.hovered() || box_.inside()) && !hover_)) return box_.hint();
     if (ring_.active()) return "Hold Shift for steps of 15 degrees";
@@ -71,7 +79,9 @@ class SelectTool final : public HandleTool {
                ? "Drag points of the rest shape (posed points stay); double-click an edge "
                  "to insert a point; " +
                      workspace.actions.key_of("cage.rest") + " returns to the pose"
-               : "Drag points or pins; drag a box to select; double-click an edge to insert; " +
+               : "Drag points, pins or a layer; drag a box from outside to select; double-click an "
+                 "edge "
+                 "to insert a point; " +
                      workspace.actions.key_of("cage.rest") + " shows the rest shape";
   }
 
@@ -96,6 +106,7 @@ class SelectTool final : public HandleTool {
   std::optional<Complex> marquee_start_;
   Complex marquee_end_;
   TransformBox box_;
+  LayerDrag layer_;
 };
 
 }  // namespace

@@ -80,9 +80,8 @@ void transform(Deformation& deformation, const Selection& selection, const Affin
 
 Deformation transformed(Deformation deformation, const Selection& selection, const Affine& map,
                         double turn, EditMode mode) {
-  return edited_in(mode, std::move(deformation), [&](Deformation& edited) {
-    transform(edited, selection, map, turn, mode);
-  });
+  return edited_in(mode, std::move(deformation),
+                   [&](Deformation& edited) { transform(edited, selection, map, turn, mode); });
 }
 
 BoxMark TransformBox::mark_of(const Workspace& workspace, const Affine& map) const {

@@ -24,7 +24,8 @@ Deformation partly_posed(std::mt19937& random) {
     deformation = with_pin(std::move(deformation), z, z);
   }
   for (const Handle& handle : handles_of(deformation, EditMode::pose))
-    if (random() % 2 == 0) shift(deformation, handle, 30.0 * random_complex(random), EditMode::pose);
+    if (random() % 2 == 0)
+      shift(deformation, handle, 30.0 * random_complex(random), EditMode::pose);
   return deformation;
 }
 
@@ -38,7 +39,8 @@ Complex rest_at(const Deformation& deformation, const Handle& handle) {
 /// Checks the rule for an edit of the rest shape that keeps the degrees.
 void check_rule(const Deformation& before, const Deformation& after) {
   for (const Handle& handle : handles_of(before, EditMode::rest)) {
-    INFO("handle " << static_cast<int>(handle.kind) << " " << handle.index << " " << handle.control);
+    INFO("handle " << static_cast<int>(handle.kind) << " " << handle.index << " "
+                   << handle.control);
     if (pose_at(before, handle) == rest_at(before, handle))
       CHECK(pose_at(after, handle) == rest_at(after, handle));
     else

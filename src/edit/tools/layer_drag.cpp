@@ -1,0 +1,114 @@
+// A layer without a cage gets a box when it is moved.
+#include "edit/tools/layer_drag.h"
+
+#include "core/geometry/polyline.h"
+#include "edit/edits/method_edits.h"
+#include "edit/tools/tool.h"
+#include "scene/keyframes.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kVisibleAlpha = 13;  // 5 % of 255
+
+void move(Cage& cage, Complex by) {
+  for (Points& segment : cage.segments)
+    for (Complex& z : segment) z += by;
+}
+
+bool is_opaque_at(const Image& picture, Complex rest) {
+  const int column = static_cast<int>(std::floor(rest.real())),
+            row = picture.height - 1 - static_cast<int>(std::floor(rest.imag()));
+  return column >= 0 && row >= 0 && column < picture.width && row < picture.height &&
+         picture.at(column, row)[3] >= kVisibleAlpha;
+}
+
+/// Whether a layer shows a visible pixel at z.
+bool shows(const LiveMap& map, const Deformation& deformation, const Image& picture, Complex z) {
+  if (map.has_map() && deformation.has_cage()) {
+    const Mesh& mesh = *map.drawn();
+    if (const auto found = locate(mesh, as_span(map.map().f), z))
+      return is_opaque_at(picture, found->in(mesh, mesh.vertices));
+  }
+  // Outside of the cage, the picture does not move.
+  const bool inside = deformation.has_cage() && encloses(outline_of(deformation.rest), z);
+  return !inside && is_opaque_at(picture, z);
+}
+
+}  // namespace
+
+Deformation moved_as_whole(Deformation deformation, Complex by) {
+  move(deformation.pose, by);
+  for (Pin& pin : deformation.pins) pin.pose += by;
+  for (Stroke& stroke : deformation.strokes)
+    for (Complex& z : stroke.pose) z += by;
+  for (Complex& z : deformation.outline) z += by;
+  for_fitting_keys(deformation, [&](Pose& pose) {
+    move(pose.cage, by);
+    for (PosePin& pin : pose.pins) pin.position += by;
+    for (Points& stroke : pose.strokes)
+      for (Complex& z : stroke) z += by;
+  });
+  return deformation;
+}
+
+Deformation with_box(Deformation deformation, const Image& picture) {
+  const double width = picture.width, height = picture.height;
+  const Points corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
+  return with_method_for(with_cage(std::move(deformation), corners), MethodUse::cage);
+}
+
+std::optional<size_t> layer_at(const Workspace& w, Complex z) {
+  const Scene& scene = w.document.scene();
+  for (size_t i = scene.layers.size(); i-- > 0;) {
+    const Layer& layer = *scene.layers[i];
+    const Image* picture = w.document.pictures().of(layer);
+    if (!layer.visible || !picture) continue;
+    const Deformation& deformation = i == scene.edited ? w.shown.deformation() : layer.deformation;
+    if (shows(w.maps.of(layer.id), deformation, *picture, z)) return i;
+  }
+  return {};
+}
+
+bool LayerDrag::start(const Input& input, Workspace& w) {
+  if (w.mode == EditMode::rest || w.display.view != View::image) return false;
+  const std::optional<size_t> number = layer_at(w, input.position);
+  if (!number) return false;
+  w.choose_layer(*number);
+  const Layer& layer = w.document.scene().layer();
+  if (layer.locked || layer.deformation.surface) return false;
+  const Image& picture = *w.document.image();
+  const auto caged = [&](const Deformation& deformation) {
+    return deformation.has_cage() ? deformation : with_box(deformation, picture);
+  };
+  shown_ = caged(w.shown.deformation());
+  own_ = caged(w.shown.own());
+  start_px_ = input.px;
+  start_ = input.position;
+  active_ = true;
+  moving_ = false;
+  return true;
+}
+
+void LayerDrag::follow(const Input& input, Workspace& w) {
+  moving_ = moving_ || std::abs(input.px - start_px_) >= kDragThresholdPx;
+  Complex by = input.position - start_;
+  if (input.mods.shift)
+    by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
+  if (moving_) w.shown.preview = moved_as_whole(shown_, by);
+  if (!input.released && input.down) return;
+  active_ = false;
+  if (!moving_) {
+    w.selection.clear();
+    return;
+  }
+  w.shown.preview.reset();
+  w.commit("Move layer", moved_as_whole(own_, by), EditBase::document);
+}
+
+void LayerDrag::cancel(Workspace& w) {
+  if (active_) w.shown.preview.reset();
+  active_ = false;
+}
+
+}  // namespace holomorph
