@@ -42,9 +42,10 @@ ImFont* add_face(const Face& face, float height) {
   static const ImWchar kRanges[] = {0x20,   0x24f,  0x370,  0x3ff,  0x2010, 0x2044,
                                     0x20ac, 0x20ac, 0x2190, 0x2193, 0};
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-  if (std::filesystem::exists(face.file))
-    return fonts.AddFontFromFileTTF(face.file, height, nullptr, kRanges);
   ImFontConfig config;
+  config.OversampleH = face.height > 16 ? 1 : 2;  // more makes the atlas large and hardly sharper
+  if (std::filesystem::exists(face.file))
+    return fonts.AddFontFromFileTTF(face.file, height, &config, kRanges);
   config.SizePixels = height;
   return fonts.AddFontDefault(&config);
 }

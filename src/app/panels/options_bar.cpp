@@ -208,6 +208,18 @@ void add_brush_groups(OptionGroups& groups, Workspace& workspace) {
 }
 
 void add_auto_cage_groups(OptionGroups& groups, Workspace& workspace) {
+  const auto add_holes = [&] {
+    groups.push_back(
+        {"holes", [&workspace] {
+           inline_label("Smallest hole",
+                        "Empty regions inside the picture become holes of the next cage if they are "
+                        "wider than this, in percent of the picture's size. 100 % fills all of them.");
+           slider("##Smallest hole", workspace.tools.auto_cage.hole_width,
+                  {.low = 0.1, .high = 100, .unit = "%", .decimals = 1, .logarithmic = true,
+                   .neutral = 3.0},
+                  px(164));
+         }});
+  };
   groups.push_back({"make", [&workspace] {
                       action_option("cage.from_picture", "Make from picture", workspace);
                     }});
@@ -220,6 +232,7 @@ void add_auto_cage_groups(OptionGroups& groups, Workspace& workspace) {
                       bool& curved = workspace.tools.auto_cage.curved;
                       if (toggle_switch("Curved", curved)) curved = !curved;
                     }});
+  add_holes();
 }
 
 /// A slider for a parameter of the chosen method, if it has the parameter.

@@ -173,14 +173,17 @@ void draw_samples(Samples& samples, Workspace& workspace, PanelAnswer& answer) {
   const float gap = px(16);
   const std::vector<Sample>& all = samples.shown();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  // The largest tiles of which all rows fit into the window.
+  // The largest tiles of which all rows fit into the window. They may be flatter than usual.
+  constexpr float kUsual = 0.8f, kFlattest = 0.62f;  // height, relative to the width
   Columns columns;
   ImVec2 size;
   for (size_t count = 3; count <= 6; ++count) {
     columns = {count, std::floor((room.x + gap) / static_cast<float>(count)) - gap};
-    size = {columns.width, std::floor(0.8f * columns.width)};
-    const size_t rows = (all.size() + count) / count;
-    if (columns.width < px(176) || static_cast<float>(rows) * (size.y + px(60)) < room.y) break;
+    const auto rows = static_cast<float>((all.size() + count) / count);
+    const float fits = std::floor(room.y / rows) - px(60);
+    size = {columns.width, std::floor(std::clamp(fits, kFlattest * columns.width,
+                                                 kUsual * columns.width))};
+    if (columns.width < px(176) || fits >= kFlattest * columns.width) break;
   }
   std::optional<size_t> hovered;
   for (size_t i = 0; i < all.size(); ++i) {
