@@ -211,11 +211,16 @@ void add_auto_cage_groups(OptionGroups& groups, Workspace& workspace) {
   const auto add_holes = [&] {
     groups.push_back(
         {"holes", [&workspace] {
-           inline_label("Smallest hole",
-                        "Empty regions inside the picture become holes of the next cage if they are "
-                        "wider than this, in percent of the picture's size. 100 % fills all of them.");
+           inline_label(
+               "Smallest hole",
+               "Empty regions inside the picture become holes of the next cage if they are "
+               "wider than this, in percent of the picture's size. 100 % fills all of them.");
            slider("##Smallest hole", workspace.tools.auto_cage.hole_width,
-                  {.low = 0.1, .high = 100, .unit = "%", .decimals = 1, .logarithmic = true,
+                  {.low = 0.1,
+                   .high = 100,
+                   .unit = "%",
+                   .decimals = 1,
+                   .logarithmic = true,
                    .neutral = 3.0},
                   px(164));
          }});

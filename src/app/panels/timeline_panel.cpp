@@ -12,6 +12,8 @@
 namespace holomorph {
 namespace {
 
+constexpr double kRateSeconds = 1.5;  ///< over which the rate of playback is measured
+
 /// Converts between seconds on the ruler and window px.
 struct Ruler {
   float left = 0, width = 1, top = 0, bottom = 0;
@@ -60,11 +62,15 @@ void draw_time(Workspace& workspace, float s) {
 
 void draw_blend(Workspace& workspace, float s) {
   AnimationSettings settings = workspace.document.scene().animation;
-  int blend = settings.linear_blend ? 1 : 0;
-  ImGui::SetNextItemWidth(104 * s);
-  if (ImGui::Combo("##blend", &blend, "Shapes\0Positions\0")) {
-    settings.linear_blend = blend == 1;
-    workspace.commit_layers("Blending", with_animation(workspace.document.scene(), settings));
+  static constexpr const char* kLabels[] = {"Shapes", "Positions"};
+  const size_t blend = settings.linear_blend ? 1 : 0;
+  if (begin_dropdown("##blend", kLabels[blend], 104 * s)) {
+    for (size_t i = 0; i < 2; ++i)
+      if (dropdown_row(kLabels[i], i == blend)) {
+        settings.linear_blend = i == 1;
+        workspace.commit_layers("Blending", with_animation(workspace.document.scene(), settings));
+      }
+    end_dropdown();
   }
   finish_item(workspace,
               "What to blend between keyframes: shapes (rotations and sizes) or, for comparison, "
@@ -80,11 +86,15 @@ void draw_key_numbers(Workspace& workspace, float s) {
     return;  // the keyframe's context menu also has these fields
   ImGui::Dummy({8 * s, 0});
   ImGui::SameLine();
-  int ease = static_cast<int>(deformation.keyframes[key].ease);
-  ImGui::SetNextItemWidth(104 * s);
-  if (ImGui::Combo("##ease", &ease, "Smooth\0Linear\0Hold\0"))
-    workspace.commit("Easing", with_ease(deformation, key, static_cast<Ease>(ease)),
-                     EditBase::document);
+  static constexpr const char* kEases[] = {"Smooth", "Linear", "Hold"};
+  const auto ease = static_cast<size_t>(deformation.keyframes[key].ease);
+  if (begin_dropdown("##ease", kEases[ease], 104 * s)) {
+    for (size_t i = 0; i < 3; ++i)
+      if (dropdown_row(kEases[i], i == ease))
+        workspace.commit("Easing", with_ease(deformation, key, static_cast<Ease>(i)),
+                         EditBase::document);
+    end_dropdown();
+  }
   finish_item(workspace, "Easing from this keyframe to the next one");
   if (key == 0) return;
   int& turns = deformation.keyframes[key].turns;
@@ -204,6 +214,29 @@ void TimelinePanel::draw_rate(Workspace& workspace, float s) {
   workspace.commit_layers("Frame rate", with_animation(workspace.document.scene(), settings));
 }
 
+/// While the animation plays slower than its frame rate, says how fast it plays.
+void TimelinePanel::draw_real_rate(const Workspace& workspace) {
+  const Timeline& timeline = workspace.shown.timeline;
+  const double now = ImGui::GetTime();
+  if (!timeline.playing) {
+    played_.clear();
+    return;
+  }
+  const int frame = frame_at(workspace.document.scene(), timeline.time);
+  if (played_.empty() || played_.back().frame != frame) played_.push_back({frame, now});
+  std::erase_if(played_, [&](const PlayedFrame& played) { return played.at < now - kRateSeconds; });
+  if (played_.size() < 3) return;
+  const double rate =
+      static_cast<double>(played_.size() - 1) / (played_.back().at - played_.front().at);
+  const double wanted = workspace.document.scene().animation.frames_per_second;
+  char text[64];
+  std::snprintf(text, sizeof text, "Plays at %.0f fps", std::min(rate, wanted));
+  ImGui::AlignTextToFramePadding();
+  colored_text(rate < 0.9 * wanted ? theme_colors().warning : theme_colors().muted, text);
+  name_item("real rate");
+  ImGui::SameLine();
+}
+
 void TimelinePanel::draw_track(Workspace& workspace, float s) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
   // A function rather than a reference, because commits replace the deformation.
@@ -290,6 +323,7 @@ void TimelinePanel::draw(Workspace& workspace, const PanelSizes& sizes) {
   draw_rate(workspace, s);
   draw_blend(workspace, s);
   draw_key_numbers(workspace, s);
+  draw_real_rate(workspace);
   ImGui::NewLine();
   draw_track(workspace, s);
   ImGui::End();

@@ -13,9 +13,16 @@ class TimelinePanel {
  private:
   enum class Held { nothing, time, key };
   void draw_rate(Workspace& workspace, float scale);
+  void draw_real_rate(const Workspace& workspace);
   void draw_track(Workspace& workspace, float scale);
   void drag(Workspace& workspace, double time, float scale);
 
+  /// A frame that was displayed while playing, and when.
+  struct PlayedFrame {
+    int frame = 0;
+    double at = 0;  ///< seconds
+  };
+  std::vector<PlayedFrame> played_;
   Held held_ = Held::nothing;   ///< what the pointer drags
   size_t key_ = 0;              ///< index of the dragged keyframe
   std::optional<double> rate_;  ///< frame rate while it is being typed

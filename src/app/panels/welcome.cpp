@@ -181,8 +181,8 @@ void draw_samples(Samples& samples, Workspace& workspace, PanelAnswer& answer) {
     columns = {count, std::floor((room.x + gap) / static_cast<float>(count)) - gap};
     const auto rows = static_cast<float>((all.size() + count) / count);
     const float fits = std::floor(room.y / rows) - px(60);
-    size = {columns.width, std::floor(std::clamp(fits, kFlattest * columns.width,
-                                                 kUsual * columns.width))};
+    size = {columns.width,
+            std::floor(std::clamp(fits, kFlattest * columns.width, kUsual * columns.width))};
     if (columns.width < px(176) || fits >= kFlattest * columns.width) break;
   }
   std::optional<size_t> hovered;
