@@ -43,7 +43,8 @@ void Questions::draw() {
     std::vector<size_t> order;
     for (size_t i = answers.size(); i-- > 0;)
       if (i != open_->default_answer) order.push_back(i);
-    std::ranges::stable_partition(order, [&](size_t i) { return answers[i].destroys; });
+    std::stable_partition(order.begin(), order.end(),
+                          [&](size_t i) { return answers[i].destroys; });
     order.push_back(open_->default_answer);
     for (size_t k = 0; k < order.size(); ++k) {
       if (k > 0) ImGui::SameLine(0, gap);
