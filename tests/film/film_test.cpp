@@ -205,7 +205,8 @@ TEST_CASE("The rectangle of a film fits the whole motion tightly at any frame ra
 TEST_CASE("A film that loops leaves out a last frame that equals the first") {
   Scene scene = film_scene();
   Deformation deformation = scene.deformation();
-  deformation = with_key(posed_as(std::move(deformation), deformation.keyframes[0].pose), 1);
+  const Pose first = deformation.keyframes[0].pose;
+  deformation = with_key(posed_as(std::move(deformation), first), 1);
   const Scene closed = with_deformation(scene, deformation);
   CHECK(last_frame_of(closed) == 24);
   CHECK(frames_of_film(closed, 0, 24, true) == 24);
