@@ -13,8 +13,7 @@ import attack
 options = attack.arguments(__doc__, kills=24)
 rng = random.Random(options.seed)
 folder = tempfile.mkdtemp(prefix="kill-")
-for name in os.listdir(os.path.join(options.source, "assets")):
-    shutil.copy(os.path.join(options.source, "assets", name), folder)
+shutil.copytree(os.path.join(options.source, "assets"), folder, dirs_exist_ok=True)
 path = lambda name: os.path.join(folder, name)
 film = json.load(open(path("fern.json")))
 film["animation"] = {"frames_per_second": 8}

@@ -24,9 +24,7 @@ WORDS = ["cage", "pins", "rigid", "no folds", "harmonic", "mean value", "angles"
 STUCK = 60  # seconds without a processed event
 rng = random.Random(options.seed)
 work = tempfile.mkdtemp(prefix="monkey-")
-assets = os.path.join(options.source, "assets")
-for name in os.listdir(assets):
-    shutil.copy(os.path.join(assets, name), work)
+shutil.copytree(os.path.join(options.source, "assets"), work, dirs_exist_ok=True)
 scenes = sorted(os.path.join(work, name) for name in os.listdir(work) if name.endswith(".json"))
 
 

@@ -57,8 +57,7 @@ def change(scene, rng):
 rng = random.Random(options.seed)
 folder = tempfile.mkdtemp(prefix="mutate-")
 assets = os.path.join(options.source, "assets")
-for name in os.listdir(assets):
-    shutil.copy(os.path.join(assets, name), folder)
+shutil.copytree(assets, folder, dirs_exist_ok=True)
 samples = [json.load(open(os.path.join(assets, name))) for name in sorted(os.listdir(assets)) if name.endswith(".json")]
 with open(os.path.join(folder, "p.csv"), "w") as file:
     file.write("x,y\n500,350\n0,0\n1e8,-1e8\n")

@@ -52,7 +52,7 @@ class Package(unittest.TestCase):
 
     def test_the_window_shows_its_own_samples(self):
         # If the package lacked its samples, the program would use those of the source tree. To tell
-        # them apart, replace the first one.
+        # them apart, replace one.
         assets = os.path.join(self.root, "usr/share/holomorph/assets")
         shutil.copy(os.path.join(assets, "fish.json"), os.path.join(assets, "giraffe.json"))
         with open(os.path.join(assets, "fish.json")) as file:
@@ -65,7 +65,7 @@ class Package(unittest.TestCase):
             windows = subprocess.run(["xdotool", "search", "--class", "^holomorph$"], env=editor.environment,
                                      capture_output=True, text=True).stdout.split()
             self.assertTrue(windows, "the window has the class that the desktop file names")
-            editor.press(100, 280)  # the first tile
+            editor.press_item("Giraffe")
             editor.wait(lambda s: s["cage_points"] == points, "the sample")
 
     def test_it_says_its_license_and_brings_what_its_texts_link(self):

@@ -20,11 +20,10 @@ namespace holomorph {
 namespace {
 
 constexpr int kSamplesEach = 3;
-constexpr size_t kAreaSamples = 400;
-constexpr int kMostSteps = 400, kFewSteps = 30;
-constexpr double kStill = 1e-9;
+constexpr size_t kAreaSamples = 4000;
+constexpr int kMostSteps = 100, kFewSteps = 12;
+constexpr double kStill = 1e-6;
 constexpr double kHandlePull = 1e3;  ///< weight of a handle, relative to the mean energy
-constexpr double kRigidPart = 1e-3;  ///< weight of rigidity in the otherwise conformal start
 constexpr double kDefinite = 1e-9;   ///< fixes a constant that can move between Phi and Psi
 
 class HarArapDeformer final : public Deformer {
@@ -58,8 +57,8 @@ class HarArapDeformer final : public Deformer {
     const VectorXd handles = handle_right(targets);
     const auto* before = dynamic_cast<const Found*>(from);
     const bool continues = options.draft && before && before->phi.size() == basis_.size();
-    const auto found =
-        std::make_shared<Found>(continues ? *before : unknowns(conformal_.solve(handles)));
+    const auto found = std::make_shared<Found>(
+        continues ? *before : step(handles, rotations_of_arap(pose, options)));
     const int most = options.draft ? kFewSteps : kMostSteps;
     out.iterations = minimize(handles, most, options.stop, *found);
     if (out.iterations == most) out.status = SampledMap::Status::iterating;
@@ -103,12 +102,26 @@ class HarArapDeformer final : public Deformer {
     return slopes;
   }
 
+  /// Points at a small distance inside the edges of the basis, where its functions vary most.
+  Points near_boundary() const {
+    const PolygonView polygon = basis_.polygon();
+    const Loops loops = polygon.loops();
+    Points points;
+    for (Index i = 0; i < polygon.size(); ++i) {
+      const Complex a = polygon.points()[static_cast<size_t>(i)],
+                    side = polygon.points()[static_cast<size_t>(loops.next(i))] - a;
+      for (const double t : {0.25, 0.75}) points.push_back(a + side * Complex(t, 0.4));
+    }
+    return points;
+  }
+
   /// Takes some of the mesh's vertices as samples, weighted by the area of their triangles.
   void set_up_energy() {
     Points points;
     std::vector<double> weights;
     double total = 0;
-    for (const AreaSample& sample : area_samples(*rest_.mesh, kAreaSamples)) {
+    for (const AreaSample& sample : area_samples(*rest_.mesh, kAreaSamples, near_boundary())) {
+      vertices_.push_back(sample.vertex);
       points.push_back(rest_.mesh->vertices[static_cast<size_t>(sample.vertex)]);
       weights.push_back(sample.area);
       total += sample.area;
@@ -152,18 +165,17 @@ class HarArapDeformer final : public Deformer {
       const Index part = i / e, k = i % e;
       return k < n ? first + part * n + k : 4 * n + part * holes() + k - n;
     };
-    const auto factored = [&](double phi_weight, Cholesky& out) {
+    const auto factored = [&](Cholesky& out) {
       MatrixXd normal = shared;
       for (Index i = 0; i < 2 * e; ++i)
         for (Index j = 0; j < 2 * e; ++j) {
-          normal(position(i, 0), position(j, 0)) += phi_weight * real(i, j);
+          normal(position(i, 0), position(j, 0)) += real(i, j);
           const bool flips = (i >= e + n) != (j >= e + n);  // Im c changes its sign
           normal(position(i, 2 * n), position(j, 2 * n)) += flips ? -real(i, j) : real(i, j);
         }
       check(out.factor(normal), "har_arap: the energy is definite");
     };
-    factored(1, rigid_);
-    factored(kRigidPart, conformal_);
+    factored(rigid_);
   }
 
   VectorXd handle_right(const Points& targets) const {
@@ -185,6 +197,47 @@ class HarArapDeformer final : public Deformer {
     return found;
   }
 
+  /// The map of least energy with these rotations at the energy's samples.
+  Found step(const VectorXd& handles, const VectorXc& rotations) const {
+    const Index n = basis_.size();
+    const VectorXc pull = gradient_.adjoint() * rotations.cwiseProduct(weights_);
+    VectorXd right = handles;
+    right.segment(0, n) += pull.head(n).real();
+    right.segment(n, n) += pull.head(n).imag();
+    right.segment(4 * n, holes()) += pull.tail(holes()).real();
+    right.segment(4 * n + holes(), holes()) += pull.tail(holes()).imag();
+    return unknowns(rigid_.solve(right));
+  }
+
+  /// The rotations of the map of `arap` at the energy's samples. A start without them may have
+  /// branch points, which rotations of the map itself never lose.
+  VectorXc rotations_of_arap(const Pose& pose, const EvalOptions& options) {
+    if (!arap_) {
+      Rest rest = used_by(method_named("arap"), rest_);
+      rest.samples = rest.mesh->vertices;
+      rest.derivative_samples.clear();
+      arap_ = method_named("arap").prepare(rest, nullptr);
+    }
+    const VectorXc f = arap_->deform(pose, {.draft = options.draft, .stop = options.stop}).f;
+    const Mesh& mesh = *rest_.mesh;
+    VectorXc sums = VectorXc::Zero(f.size());
+    for (const auto& [i, j, k] : mesh.triangles) {
+      const Points& z = mesh.vertices;
+      const Complex z1 = z[static_cast<size_t>(j)] - z[static_cast<size_t>(i)],
+                    z2 = z[static_cast<size_t>(k)] - z[static_cast<size_t>(i)];
+      // Twice the signed area times f_z.
+      const Complex sum =
+          kI * ((f[j] - f[i]) * std::conj(z2) - (f[k] - f[i]) * std::conj(z1)) / 2.0;
+      for (const int v : {i, j, k}) sums[v] += sum;
+    }
+    VectorXc rotations(static_cast<Index>(vertices_.size()));
+    for (Index s = 0; s < rotations.size(); ++s) {
+      const Complex sum = sums[vertices_[static_cast<size_t>(s)]];
+      rotations[s] = std::abs(sum) > 0 ? sum / std::abs(sum) : Complex(1);
+    }
+    return rotations;
+  }
+
   int minimize(const VectorXd& handles, int most, const std::stop_token& stop, Found& found) const {
     const Index n = basis_.size();
     int iteration = 0;
@@ -194,15 +247,9 @@ class HarArapDeformer final : public Deformer {
       if (!holes_.empty()) turn += gradient_.rightCols(holes()) * found.logs;
       for (Index i = 0; i < turn.size(); ++i) {
         const double size = std::abs(turn[i]);
-        turn[i] = size > 0 ? weights_[i] * turn[i] / size : Complex(weights_[i]);
+        turn[i] = size > 0 ? turn[i] / size : Complex(1);
       }
-      const VectorXc pull = gradient_.adjoint() * turn;
-      VectorXd right = handles;
-      right.segment(0, n) += pull.head(n).real();
-      right.segment(n, n) += pull.head(n).imag();
-      right.segment(4 * n, holes()) += pull.tail(holes()).real();
-      right.segment(4 * n + holes(), holes()) += pull.tail(holes()).imag();
-      Found next = unknowns(rigid_.solve(right));
+      Found next = step(handles, turn);
       moved = (next.phi - found.phi).cwiseAbs().maxCoeff() / size_;
       found = std::move(next);
     }
@@ -229,7 +276,9 @@ class HarArapDeformer final : public Deformer {
   MatrixXd held_rows_;
   VectorXd weights_;
   PlanarMatrix<double> values_, slopes_;
-  Cholesky rigid_, conformal_;
+  std::vector<int> vertices_;  ///< of the mesh, the energy's samples
+  Cholesky rigid_;
+  std::unique_ptr<Deformer> arap_;  ///< gives the first rotations; made when needed
 };
 
 std::unique_ptr<Deformer> make_har_arap(const Rest& rest, const Deformer*) {
