@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/cauchy/cauchy.h"
 #include "core/geometry/polyline.h"
 
 namespace holomorph {
@@ -15,10 +16,16 @@ std::span<const Complex> shown_positions(const Workspace& workspace) {
                              : as_span(map.map().f);
 }
 
+/// The picture lies at rest while the first map of a scene without a pose is prepared.
+std::optional<Complex> rest_without_map(const Deformation& deformation, Complex z) {
+  const bool still = deformation.has_cage() && at_rest(deformation) == deformation;
+  return still && contains(deformation.rest, z) ? std::optional(z) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {
-  if (!workspace.map().has_map()) return {};
+  if (!workspace.map().has_map()) return rest_without_map(workspace.shown.deformation(), z);
   const Mesh& mesh = *workspace.map().drawn();
   const auto found = locate(mesh, shown_positions(workspace), z);
   if (!found) return {};

@@ -5,8 +5,8 @@
 
 namespace holomorph {
 
-/// The rest position of the picture point that is displayed at z; none if z is outside the picture
-/// or no map is available yet.
+/// The rest position of the picture point that is displayed at z. None if z is outside the picture,
+/// or if a pose has no map yet.
 std::optional<Complex> rest_at(const Workspace& workspace, Complex z);
 /// Whether z is in a hole of the picture as it is shown.
 bool is_in_hole(const Workspace& workspace, Complex z);
