@@ -1,6 +1,5 @@
 # Tests of the first minutes in the real window: few actions to a bent picture, methods that are easy to change, panels
 # that stay in place.
-import json
 import os
 import sys
 import time
@@ -80,6 +79,7 @@ class ProductWindowTest(WindowCase):
             before = places()
             self.assertGreater(len(before), 15)
             editor.click(*LEG)
+            editor.wait(lambda s: s["pins"] == 2, "another pin")
             self.assertEqual(places(), before, "another pin")
             editor.key("Escape")
             self.assertEqual(places(), before, "nothing selected")

@@ -2,7 +2,7 @@
 // Phi and Psi in a Cauchy basis (the har-ARAP of Levi, Weber 2016).
 //
 // There are a few hundred unknowns. The energy is a sum over samples instead of triangles. Here f_z
-// = Phi' and f_zbar = conj(Psi').
+// = Phi' and f_zbar = conj(Psi'). The first rotations are those of the map of `arap`.
 //
 // In a domain with holes, Phi + conj(Psi) is not every harmonic map. Each hole adds c ln|z - a|,
 // where a lies in the hole. This contributes c / (2 (z - a)) to Phi' and conj(c) / (2 (z - a)) to
@@ -135,7 +135,7 @@ class HarArapDeformer final : public Deformer {
 
   Index holes() const { return static_cast<Index>(holes_.size()); }
 
-  /// Sets up the normal matrices for the unknowns (Re Phi, Im Phi, Re Psi, Im Psi, Re c, Im c). At
+  /// Sets up the normal matrix for the unknowns (Re Phi, Im Phi, Re Psi, Im Psi, Re c, Im c). At
   /// the handles, f = C Phi + conj(C Psi) + ln|z - a| c.
   void set_up_handles() {
     held_ = basis_.values(handles_.rest());
@@ -154,8 +154,8 @@ class HarArapDeformer final : public Deformer {
     rows.block(4 * n, 0, holes(), h) = logs.transpose();
     rows.block(4 * n + holes(), h, holes(), h) = logs.transpose();
     held_rows_ = rows;
-    MatrixXd shared = kDefinite / (size_ * size_) * MatrixXd::Identity(all, all);
-    add_gram(std::sqrt(handle_weight_) * rows, 2 * h, 0, shared);
+    MatrixXd normal = kDefinite / (size_ * size_) * MatrixXd::Identity(all, all);
+    add_gram(std::sqrt(handle_weight_) * rows, 2 * h, 0, normal);
     const MatrixXc gram = gradient_.adjoint() * gradient_;
     const Index e = gram.rows();
     MatrixXd real(2 * e, 2 * e);
@@ -165,17 +165,13 @@ class HarArapDeformer final : public Deformer {
       const Index part = i / e, k = i % e;
       return k < n ? first + part * n + k : 4 * n + part * holes() + k - n;
     };
-    const auto factored = [&](Cholesky& out) {
-      MatrixXd normal = shared;
-      for (Index i = 0; i < 2 * e; ++i)
-        for (Index j = 0; j < 2 * e; ++j) {
-          normal(position(i, 0), position(j, 0)) += real(i, j);
-          const bool flips = (i >= e + n) != (j >= e + n);  // Im c changes its sign
-          normal(position(i, 2 * n), position(j, 2 * n)) += flips ? -real(i, j) : real(i, j);
-        }
-      check(out.factor(normal), "har_arap: the energy is definite");
-    };
-    factored(rigid_);
+    for (Index i = 0; i < 2 * e; ++i)
+      for (Index j = 0; j < 2 * e; ++j) {
+        normal(position(i, 0), position(j, 0)) += real(i, j);
+        const bool flips = (i >= e + n) != (j >= e + n);  // Im c changes its sign
+        normal(position(i, 2 * n), position(j, 2 * n)) += flips ? -real(i, j) : real(i, j);
+      }
+    check(normal_.factor(normal), "har_arap: the energy is definite");
   }
 
   VectorXd handle_right(const Points& targets) const {
@@ -206,11 +202,11 @@ class HarArapDeformer final : public Deformer {
     right.segment(n, n) += pull.head(n).imag();
     right.segment(4 * n, holes()) += pull.tail(holes()).real();
     right.segment(4 * n + holes(), holes()) += pull.tail(holes()).imag();
-    return unknowns(rigid_.solve(right));
+    return unknowns(normal_.solve(right));
   }
 
-  /// The rotations of the map of `arap` at the energy's samples. A start without them may have
-  /// branch points, which rotations of the map itself never lose.
+  /// The rotations of the map of `arap` at the energy's samples. Starting from
+  /// another map may leave branch points, which local steps do not remove.
   VectorXc rotations_of_arap(const Pose& pose, const EvalOptions& options) {
     if (!arap_) {
       Rest rest = used_by(method_named("arap"), rest_);
@@ -277,7 +273,7 @@ class HarArapDeformer final : public Deformer {
   VectorXd weights_;
   PlanarMatrix<double> values_, slopes_;
   std::vector<int> vertices_;  ///< of the mesh, the energy's samples
-  Cholesky rigid_;
+  Cholesky normal_;
   std::unique_ptr<Deformer> arap_;  ///< gives the first rotations; made when needed
 };
 
