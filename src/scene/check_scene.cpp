@@ -83,6 +83,7 @@ void check_handles(const Deformation& deformation) {
     const std::string what = numbered("pin", i);
     check_point(what, pin.rest);
     check_pin(what, {pin.pose, pin.angle.value_or(0), pin.scale, pin.turn});
+    if (pin.radius) check_range(what + "'s radius", *pin.radius, kMinPinRadius, kMaxPinRadius);
     check_range(what + "'s depth", pin.depth, -kMaxDepth, kMaxDepth);
   }
   check_count("strokes", deformation.strokes.size(), kMaxStrokes);

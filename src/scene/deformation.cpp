@@ -18,7 +18,8 @@ Rest rest_of(const Deformation& deformation, Precision precision) {
   raise_to(deformation.pose);
   for (const Keyframe& key : deformation.keyframes)
     if (fits(deformation, key.pose)) raise_to(key.pose.cage);
-  for (const Pin& pin : deformation.pins) rest.pins.push_back({pin.rest, pin.angle.has_value()});
+  for (const Pin& pin : deformation.pins)
+    rest.pins.push_back({pin.rest, pin.angle.has_value(), pin.radius});
   for (const Stroke& stroke : deformation.strokes) rest.strokes.push_back(stroke.rest);
   for (const Corner& corner : deformation.corners) rest.corners.push_back(corner.vertex);
   rest.outline = deformation.outline;

@@ -30,9 +30,10 @@ struct Pin {
   Complex rest, pose;
   std::optional<double> angle;
   Extra extra;
-  double scale = 1;                 ///< has an effect only with an angle
-  std::optional<double> turn = {};  ///< see PosePin::turn
-  int depth = 0;                    ///< the picture near pins with greater depth is drawn on top
+  double scale = 1;                   ///< has an effect only with an angle
+  std::optional<double> turn = {};    ///< see PosePin::turn
+  std::optional<double> radius = {};  ///< see RestPin::radius
+  int depth = 0;                      ///< the picture near pins with greater depth is drawn on top
   bool operator==(const Pin&) const = default;
 };
 

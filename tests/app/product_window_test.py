@@ -5,7 +5,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, WindowCase, load, run_tests  # noqa: E402
+from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
 from driver import Editor  # noqa: E402
 
 BODY, LEG, HEAD = (600, 410), (800, 668), (250, 270)  # on the gecko
@@ -36,6 +36,23 @@ class ProductWindowTest(WindowCase):
             self.assertLess(abs(pin["rest"][0] - place[0]) + abs(pin["rest"][1] - place[1]), 6, "pins lie where they were pressed")
         self.assertEqual([pin.get("pose", pin["rest"]) == pin["rest"] for pin in pins], [True, True, False])
         self.assertGreater(pins[2]["pose"][1] - pins[2]["rest"][1], 45, "the drag moves the pin that its press has set")
+
+    def test_ctrl_drags_the_radius_of_the_held_disk(self):
+        with Editor(PROGRAM, [os.path.join(SOURCE, "assets", "gecko.json")]) as editor:
+            state = editor.wait(lambda s: s["status"] == "certified", "the map")
+            place = (600, 415)  # the pin with a rotation
+            ring = 34 * state["scale"] / state["zoom"]
+            editor.click(*place)
+            editor.wait(lambda s: s["selected"] == 1, "a selected pin")
+            self.screenshot(editor, "held-disk")
+            editor.xdotool("keydown", "ctrl")
+            editor.drag((place[0] + ring, place[1]), (place[0] + ring + 60, place[1]))
+            editor.xdotool("keyup", "ctrl")
+            editor.wait(lambda s: s["modified"] and not s["gesture"], "a larger disk")
+            self.screenshot(editor, "larger-held-disk")
+            pin = self.saved(editor, "disk.json")["pins"][0]
+            self.assertGreater(pin["radius"], 80)
+            self.assertEqual(pin["angle"], 0.05, "the rotation stays")
 
     def test_a_change_of_the_method_keeps_the_handles(self):
         with Editor(PROGRAM, [self.picture]) as editor:

@@ -75,6 +75,7 @@ const std::vector<std::pair<const char*, Change>> kNumbersChanged{
      }},
     {"angle", [](Layer& l, double x) { l.deformation.pins[0].angle = x; }},
     {"scale", [](Layer& l, double x) { l.deformation.pins[0].scale = x; }},
+    {"radius", [](Layer& l, double x) { l.deformation.pins[0].radius = x; }},
     {"turn", [](Layer& l, double x) { l.deformation.pins[0].turn = x; }},
     {"depth", [](Layer& l, double x) { l.deformation.pins[0].depth = whole(x); }},
     {"stroke",

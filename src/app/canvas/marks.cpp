@@ -133,6 +133,18 @@ void draw_ring(ImDrawList& list, ImVec2 at, float radius, const Pin& pin, bool h
   draw_chip(list, {at.x + radius + 8 * s, at.y - radius}, text);
 }
 
+void draw_held_disk(ImDrawList& list, ImVec2 at, float radius, const OverlayStyle& style) {
+  constexpr int kPoints = 72;
+  std::vector<ImVec2> circle;
+  for (int k = 0; k < kPoints; ++k) {
+    const float angle = 2 * static_cast<float>(kPi) * static_cast<float>(k) / kPoints;
+    circle.emplace_back(at.x + radius * std::cos(angle), at.y + radius * std::sin(angle));
+  }
+  list.AddPolyline(circle.data(), kPoints, style.colors.outline, ImDrawFlags_Closed,
+                   3 * static_cast<float>(style.scale));
+  draw_dashes(list, circle, style.colors.pin, style);
+}
+
 void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   if (std::hypot(pin.x - place.x, pin.y - place.y) < 4 * s) return;

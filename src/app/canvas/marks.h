@@ -28,6 +28,8 @@ void draw_pin(ImDrawList& list, ImVec2 at, const Pin& pin, bool selected, bool h
 /// Draws the ring around the selected pin. If the pin is fixed, also its rotation.
 void draw_ring(ImDrawList& list, ImVec2 at, float radius, const Pin& pin, bool hovered,
                const OverlayStyle& style);
+/// Draws the edge of the disk that a pin with a rotation holds.
+void draw_held_disk(ImDrawList& list, ImVec2 at, float radius, const OverlayStyle& style);
 /// Draws a line from a pin's target to the point where the map takes the pin, if the gap is
 /// visible.
 void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style);

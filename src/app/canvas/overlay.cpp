@@ -98,8 +98,11 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
       *gesture.ring < static_cast<Index>(workspace.shown.deformation().pins.size())) {
     const ImVec2 at = px(workspace, workspace.shown.deformation().pins[*gesture.ring].pose);
     const float radius = static_cast<float>(kRingRadius * workspace.display.handle_px);
-    draw_ring(list, at, radius, workspace.shown.deformation().pins[*gesture.ring],
-              gesture.ring_hovered, style);
+    const Pin& pin = workspace.shown.deformation().pins[*gesture.ring];
+    if (const auto held = held_radius(workspace.shown.deformation(), *gesture.ring))
+      draw_held_disk(
+          list, at, static_cast<float>(*held * pin.scale * workspace.display.viewport.zoom), style);
+    draw_ring(list, at, radius, pin, gesture.ring_hovered, style);
   }
 }
 

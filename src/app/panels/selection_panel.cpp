@@ -96,6 +96,16 @@ void pin_rows(Workspace& workspace, Index pin) {
         return scaled(s, pin, std::max(percent, 1.0) / 100 / s.pins[pin].scale);
       });
   ImGui::EndDisabled();
+  const auto held = held_radius(workspace.shown.deformation(), pin);
+  ImGui::BeginDisabled(!held);
+  double radius = held.value_or(0);
+  apply_change(
+      workspace,
+      slider_row("Hold radius", radius, {.low = 1, .high = 500, .unit = "px", .logarithmic = true},
+                 "The disk that keeps its shape around a pin with fixed rotation, in methods that "
+                 "keep sizes"),
+      "Resize held disk", [&](const Deformation& s) { return with_held_radius(s, pin, radius); });
+  ImGui::EndDisabled();
   pin_gap(workspace, pin);
 }
 
@@ -168,7 +178,7 @@ std::string selection_title(const Workspace& workspace) {
 
 void selection_section(Workspace& workspace) {
   const ImVec2 at = ImGui::GetCursorPos();
-  const float height = 4 * px(36);
+  const float height = 4 * px(36) + px(24);  // four rows and a note
   if (workspace.selection.empty()) {
     caption(workspace.shown.deformation().has_cage()
                 ? "Nothing is selected. Click a point, a pin or a stroke, or drag a box around "

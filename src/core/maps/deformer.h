@@ -50,8 +50,11 @@ enum class Precision {
 struct RestPin {
   Complex position;
   bool has_frame = false;
+  /// The frame acts on a disk of this radius, in methods that hold disks. See held_radius.
+  std::optional<double> radius = {};
   bool operator==(const RestPin&) const = default;
 };
+inline constexpr double kMinPinRadius = 1e-6, kMaxPinRadius = 1e6;
 inline constexpr double kMinPinScale = 0.01, kMaxPinScale = 100;
 struct PosePin {
   Complex position;
@@ -245,6 +248,7 @@ struct Method {
   std::vector<ParameterSpec> parameters = {};
   bool uses_pins = false, uses_strokes = false, uses_outline = false, uses_corners = false,
        uses_stiffness = false;
+  bool holds_disks = false;        ///< the frame of a pin acts on a disk, not on its center alone
   bool pins_replace_cage = false;  ///< while there are pins, the posed cage has no effect
   bool iterates = false;           ///< too slow for every frame of a drag: solve it on a worker
   bool harmonic = true;            ///< f_z and conj(f_zbar) are holomorphic

@@ -229,6 +229,7 @@ Method arap_method() {
           "points stay where you put them.",
       .uses_pins = true,
       .uses_stiffness = true,
+      .holds_disks = true,
       .pins_replace_cage = true,
       .iterates = true,
       .harmonic = false,

@@ -1,15 +1,15 @@
-// A pin with a frame adds handle points around it. Their positions prescribe the pin's angle and
+// A pin with a frame adds the points of its disk. Their positions prescribe the pin's angle and
 // scale.
 #include "core/methods/handles.h"
 
 #include "core/error.h"
+#include "core/maps/held_disk.h"
 #include "core/methods/linear.h"
 
 namespace holomorph {
 
 HandlePoints::HandlePoints(const Rest& rest) : rest_(rest) {
   check(rest.mesh != nullptr, "handle points: the rest has a mesh");
-  const double arm = 0.01 * box_of(rest.mesh->vertices).diagonal();
   for (size_t i = 0; i < rest.pins.size(); ++i) {
     const Index pin = static_cast<Index>(i);
     const size_t before = rest_points_.size();
@@ -17,10 +17,8 @@ HandlePoints::HandlePoints(const Rest& rest) : rest_(rest) {
     if (rest_points_.size() == before && note_.empty())
       note_ = "Ignored: pin " + std::to_string(i + 1) + " (outside the cage)";
     if (!rest.pins[i].has_frame) continue;
-    for (const Complex side : {Complex(arm), arm * kI}) {
-      add(rest.pins[i].position + side, pin, side);
-      add(rest.pins[i].position - side, pin, -side);
-    }
+    const Points disk = held_disk(rest.cage, rest.pins[i]);
+    for (size_t k = 1; k < disk.size(); ++k) add(disk[k], pin, disk[k] - rest.pins[i].position);
   }
   pins_ = !rest_points_.empty();
   for (Index v = 0; !pins_ && v < rest.cage.size(); ++v) add(rest.cage.vertex(v), v, 0);

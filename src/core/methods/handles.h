@@ -6,8 +6,8 @@
 
 namespace holomorph {
 
-/// The handle points of a rest are its pins, and four points around each pin with a frame. If none
-/// of them lies in the mesh, the handle points are the vertices of the cage.
+/// The handle points of a rest are its pins, and the points of the disks of pins with a frame. If
+/// none of them lies in the mesh, the handle points are the vertices of the cage.
 class HandlePoints {
  public:
   explicit HandlePoints(const Rest& rest);

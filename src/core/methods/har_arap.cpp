@@ -292,6 +292,7 @@ Method har_arap_method() {
           "As rigid as a smooth map can be, without spikes at the pins. Without pins, the cage "
           "points stay where you put them.",
       .uses_pins = true,
+      .holds_disks = true,
       .pins_replace_cage = true,
       .iterates = true,
       .reproduces = Method::Motions::rigid,

@@ -65,6 +65,9 @@ Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_outline) rest.outline.clear();
   if (!method.uses_corners) rest.corners.clear();
   if (!method.uses_stiffness) rest.stiffness.clear();
+  const bool holds_disks = followed_method(method, rest.parameters).holds_disks;
+  for (RestPin& pin : rest.pins)
+    if (!holds_disks || !pin.has_frame) pin.radius.reset();
   if (!method.follows_others) rest.other_parameters.clear();
   return rest;
 }

@@ -319,6 +319,7 @@ Method puppet_method() {
       .uses_pins = true,
       .uses_strokes = true,
       .uses_stiffness = true,
+      .holds_disks = true,
       .pins_replace_cage = true,
       .iterates = true,
       .reproduces = Method::Motions::rigid,

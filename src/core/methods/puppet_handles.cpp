@@ -6,6 +6,7 @@
 #include "core/geometry/orientation.h"
 #include "core/geometry/polyline.h"
 #include "core/maps/acting_pins.h"
+#include "core/maps/held_disk.h"
 #include "core/methods/linear.h"
 
 namespace holomorph {
@@ -28,7 +29,7 @@ PuppetHandles::PuppetHandles(const Rest& rest, const Settings& settings) : rest_
   }
   handles_.turned = static_cast<Index>(pins_.size());
   for (const size_t i : usable.used)
-    if (rest.pins[i].has_frame) add_frame(rest.pins[i], i, settings, size);
+    if (rest.pins[i].has_frame) add_frame(rest.pins[i], i, settings);
   add_strokes(size);
   if (handles_.stations.empty()) add_cage();
 }
@@ -38,16 +39,9 @@ void PuppetHandles::add_station(Complex z, double weight) {
   append(handles_.weights, weight);
 }
 
-void PuppetHandles::add_frame(const RestPin& pin, size_t index, const Settings& settings,
-                              double size) {
-  constexpr int kAround = 6;
+void PuppetHandles::add_frame(const RestPin& pin, size_t index, const Settings& settings) {
   const size_t before = handles_.frames.size();
-  handles_.frames.push_back(pin.position);
-  for (int k = 0; k < kAround; ++k) {
-    const Complex z =
-        pin.position + std::polar(settings.frame_radius * size, 2 * kPi * k / kAround);
-    if (contains(rest_.cage, z)) handles_.frames.push_back(z);
-  }
+  for (const Complex& z : held_disk(rest_.cage, pin)) handles_.frames.push_back(z);
   const size_t count = handles_.frames.size() - before;
   for (size_t k = 0; k < count; ++k) {
     append(handles_.frame_weights, settings.frame_weight / static_cast<double>(count));

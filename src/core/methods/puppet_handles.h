@@ -7,11 +7,10 @@
 namespace holomorph {
 
 /// Pins and strokes prescribe positions, and pins with frames also prescribe rotation and scale on
-/// a small disk. Without pins and strokes, the cage's boundary is prescribed.
+/// the held disks. Without pins and strokes, the cage's boundary is prescribed.
 class PuppetHandles {
  public:
   struct Settings {
-    double frame_radius = 0.03;  ///< of the disk, in units of the domain's diagonal
     double frame_weight = 1;
   };
   PuppetHandles(const Rest& rest, const Settings& settings);
@@ -31,7 +30,7 @@ class PuppetHandles {
 
  private:
   void add_station(Complex z, double weight);
-  void add_frame(const RestPin& pin, size_t index, const Settings& settings, double size);
+  void add_frame(const RestPin& pin, size_t index, const Settings& settings);
   void add_strokes(double size);
   void add_cage();
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/geometry/polyline.h"
+#include "core/maps/held_disk.h"
 #include "core/mesh/mesher.h"
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/displacement.h"
@@ -264,6 +265,20 @@ Deformation scaled(Deformation deformation, Index pin, double factor) {
   Pin& p = deformation.pins[pin];
   p.angle = p.angle.value_or(0);
   p.scale = std::clamp(p.scale * factor, kMinPinScale, kMaxPinScale);
+  return deformation;
+}
+
+std::optional<double> held_radius(const Deformation& deformation, Index pin) {
+  const Pin& p = deformation.pins[pin];
+  const Method& method = followed_method(method_named(deformation.method), deformation.parameters);
+  if (!p.angle || !method.holds_disks || !deformation.has_cage()) return {};
+  return held_radius(deformation.rest, {p.rest, true, p.radius});
+}
+
+Deformation with_held_radius(Deformation deformation, Index pin, double radius) {
+  const double size = box_of(outline_of(deformation.rest).points).diagonal();
+  deformation.pins[pin].radius =
+      std::clamp(radius, std::max(kMinPinRadius, 1e-3 * size), std::min(kMaxPinRadius, size));
   return deformation;
 }
 

@@ -97,6 +97,11 @@ Deformation turned(Deformation deformation, Index pin, double angle);
 /// Multiplies a pin's scale by a factor, clamped to the bounds of PosePin. The pin then prescribes
 /// rotation and scale.
 Deformation scaled(Deformation deformation, Index pin, double factor);
+/// The radius of the disk that a pin holds, at rest. None if the pin's rotation is free or the
+/// method holds no disks.
+std::optional<double> held_radius(const Deformation& deformation, Index pin);
+/// Sets the radius of the disk that a pin holds, within what its cage and files allow.
+Deformation with_held_radius(Deformation deformation, Index pin, double radius);
 
 /// Resets the pose of the selected handles to rest, or the whole pose if nothing is selected.
 Deformation reset(Deformation deformation, const Selection& selection);

@@ -65,9 +65,7 @@ class SelectTool final : public HandleTool {
              " sets pins that bend it";
     if (drag_.active()) return "Hold Shift to move along one axis";
     if (box_.active() || ((box_.hovered() || box_.inside()) && !hover_)) return box_.hint();
-    if (ring_.active()) return "Hold Shift for steps of 15 degrees";
-    if (ring_.hovered() && !hover_)
-      return "Drag the ring to rotate the picture around the pin; scroll on it to scale";
+    if (ring_.active() || (ring_.hovered() && !hover_)) return ring_.hint();
     if (hover_ && hover_->kind == Handle::Kind::stroke)
       return "Drag to move; Alt-click to delete; the Stroke tool bends and redraws it";
     if (hover_ && hover_->control > 0)

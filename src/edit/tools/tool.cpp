@@ -103,23 +103,36 @@ void PinRing::hover(const Input& input, const Workspace& workspace) {
       !exists(workspace.shown.deformation(), handle, EditMode::pose))
     return;
   pin_ = handle.index;
-  const double off =
-      std::abs(input.px - center_px(workspace, *pin_)) - kRingRadius * workspace.display.handle_px;
-  hovered_ = input.inside && std::abs(off) < 0.6 * workspace.display.handle_px;
+  const Deformation& deformation = workspace.shown.deformation();
+  const auto near_circle = [&](double radius_px) {
+    return input.inside &&
+           std::abs(distance_to(input, workspace) - radius_px) < 0.6 * workspace.display.handle_px;
+  };
+  hovered_ = near_circle(kRingRadius * workspace.display.handle_px);
+  const auto held = held_radius(deformation, *pin_);
+  resizes_ = held && input.mods.ctrl;
+  if (resizes_ &&
+      near_circle(*held * deformation.pins[*pin_].scale * workspace.display.viewport.zoom))
+    hovered_ = true;
 }
 
 double PinRing::angle_to(const Input& input, const Workspace& workspace) const {
   return -std::arg(input.px - center_px(workspace, *pin_));
 }
 
+double PinRing::distance_to(const Input& input, const Workspace& workspace) const {
+  return std::abs(input.px - center_px(workspace, *pin_));
+}
+
 void PinRing::start(const Input& input, const Workspace& workspace) {
   active_ = true;
   start_px_ = input.px;
   start_angle_ = angle_to(input, workspace);
+  start_distance_ = distance_to(input, workspace);
   start_deformation_ = workspace.shown.deformation();
 }
 
-void PinRing::follow(const Input& input, Workspace& workspace) {
+Deformation PinRing::rotated(const Input& input, const Workspace& workspace) const {
   const double before = start_deformation_.pins[*pin_].angle.value_or(0);
   double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
   // The angle is unwrapped from frame to frame, because a drag can exceed half a turn.
@@ -127,11 +140,30 @@ void PinRing::follow(const Input& input, Workspace& workspace) {
       workspace.shown.preview ? workspace.shown.preview->pins[*pin_].angle.value_or(0) : before;
   angle += 2 * kPi * std::round((last - angle) / (2 * kPi));
   if (input.mods.shift) angle = std::round(angle / (kPi / 12)) * (kPi / 12);
+  return turned(start_deformation_, *pin_, angle);
+}
+
+Deformation PinRing::resized(const Input& input, const Workspace& workspace) const {
+  const double px_per_radius =
+      workspace.display.viewport.zoom * start_deformation_.pins[*pin_].scale;
+  const double by = (distance_to(input, workspace) - start_distance_) / px_per_radius;
+  return with_held_radius(start_deformation_, *pin_, *held_radius(start_deformation_, *pin_) + by);
+}
+
+void PinRing::follow(const Input& input, Workspace& workspace) {
   if (workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
-    workspace.shown.preview = turned(start_deformation_, *pin_, angle);
+    workspace.shown.preview = resizes_ ? resized(input, workspace) : rotated(input, workspace);
   if (input.down && !input.released) return;
   active_ = false;
-  if (workspace.shown.preview) workspace.commit("Rotate pin", *workspace.shown.preview);
+  if (workspace.shown.preview)
+    workspace.commit(resizes_ ? "Resize held disk" : "Rotate pin", *workspace.shown.preview);
+}
+
+std::string PinRing::hint() const {
+  if (resizes_) return "Drag to change the radius of the disk that the pin holds";
+  if (active_) return "Hold Shift for steps of 15 degrees";
+  return "Drag the ring to rotate the picture around the pin; scroll on it to scale; Ctrl-drag it "
+         "to change the disk it holds";
 }
 
 bool PinRing::scroll(const Input& input, Workspace& workspace) {

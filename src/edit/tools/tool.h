@@ -142,13 +142,16 @@ void toggle_corners(Workspace& workspace);
 bool erase_with_alt(const Input& input, Handle handle, Workspace& workspace);
 
 /// The ring around a single selected pin. A drag of the ring rotates the picture around the pin;
-/// the wheel on the ring scales it.
+/// the wheel on the ring scales it. A drag with Ctrl, of the ring or of the edge of the held disk,
+/// changes the radius of this disk.
 class PinRing {
  public:
   /// Determines which pin has the ring and whether the pointer is on it.
   void hover(const Input& input, const Workspace& workspace);
   bool hovered() const { return hovered_; }
   bool active() const { return active_; }
+  /// What a drag of the hovered or active ring does, for the status bar.
+  std::string hint() const;
   std::optional<Index> pin() const { return pin_; }
   void start(const Input& input, const Workspace& workspace);
   /// Follows the pointer and commits on release.
@@ -160,11 +163,14 @@ class PinRing {
 
  private:
   double angle_to(const Input& input, const Workspace& workspace) const;
+  double distance_to(const Input& input, const Workspace& workspace) const;
+  Deformation rotated(const Input& input, const Workspace& workspace) const;
+  Deformation resized(const Input& input, const Workspace& workspace) const;
 
   std::optional<Index> pin_;
-  bool hovered_ = false, active_ = false;
+  bool hovered_ = false, active_ = false, resizes_ = false;
   Complex start_px_;
-  double start_angle_ = 0;
+  double start_angle_ = 0, start_distance_ = 0;
   Deformation start_deformation_;
 };
 

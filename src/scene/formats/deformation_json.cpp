@@ -57,9 +57,10 @@ Pin read_pin(const Reader& reader) {
   pin.pose = reader.has("pose") ? reader["pose"].point() : pin.rest;
   if (reader.has("angle")) pin.angle = reader["angle"].within(-kMaxPinTurn, kMaxPinTurn);
   if (reader.has("scale")) pin.scale = reader["scale"].within(kMinPinScale, kMaxPinScale);
+  if (reader.has("radius")) pin.radius = reader["radius"].within(kMinPinRadius, kMaxPinRadius);
   if (reader.has("depth")) pin.depth = reader["depth"].whole(-kMaxDepth, kMaxDepth);
   if (reader.has("turn")) pin.turn = reader["turn"].within(-kMaxPinTurn, kMaxPinTurn);
-  pin.extra = reader.others({"rest", "pose", "angle", "scale", "depth", "turn"});
+  pin.extra = reader.others({"rest", "pose", "angle", "scale", "radius", "depth", "turn"});
   return pin;
 }
 
@@ -165,6 +166,7 @@ Json pin_json(const Pin& pin) {
   item["pose"] = point_json(pin.pose);
   if (pin.angle) item["angle"] = *pin.angle;
   if (pin.scale != 1) item["scale"] = pin.scale;
+  if (pin.radius) item["radius"] = *pin.radius;
   if (pin.depth != 0) item["depth"] = pin.depth;
   if (pin.turn) item["turn"] = *pin.turn;
   add_extra(item, pin.extra);
