@@ -53,6 +53,7 @@ class Editor {
     tools_.push_back(outline_tool());
     tools_.push_back(angle_tool());
     tools_.push_back(brush_tool());
+    tools_.push_back(attach_tool());
     workspace_.maps.on_ready([this] { window_.wake(); });
     workspace_.run_in_background = [this](const std::string& title, Job::Work work,
                                           std::function<void()> then) {
@@ -308,6 +309,7 @@ class Editor {
         holomorph::run(*action, workspace_);
     if (outcome.moved || pressed) opened_ = false;
     if (pressed) panel_focus_.leave();
+    input.position = workspace_.layer_view().plane_at_px(input.px);  // tools work on the layer
   }
 
   Tool& current_tool() {

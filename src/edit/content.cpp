@@ -42,28 +42,35 @@ Box content_box(const Workspace& workspace) {
   const Deformation& deformation = workspace.shown.deformation();
   const bool at_rest = workspace.at_rest();
   Box box;
+  // Each layer is measured in its own plane and added where it lies.
+  Similarity placed;
+  const auto include_point = [&](Complex z) {
+    if (is_finite(z)) box.include(placed(z));
+  };
   const auto include = [&](const Box& part) {
     if (part.empty()) return;
-    box.include({part.left, part.bottom});
-    box.include({part.right, part.top});
+    for (const double x : {part.left, part.right})
+      for (const double y : {part.bottom, part.top}) include_point({x, y});
   };
   const auto include_map = [&](const LiveMap& map) {
-    for (const Complex& z : map.map().f)
-      if (is_finite(z)) box.include(z);
+    for (const Complex& z : map.map().f) include_point(z);
   };
-  include(resting_box(at_rest ? Cage{} : scene.deformation().rest, workspace.document.image()));
-  for (const SharedLayer& layer : scene.layers) {
-    if (layer->id == scene.layer().id || !layer->visible) continue;
-    include(resting_box(layer->deformation.rest, workspace.document.pictures().of(*layer)));
-    include_map(workspace.maps.of(layer->id));
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = *scene.layers[i];
+    if (i == scene.edited || !layer.visible) continue;
+    placed = workspace.placement(i);
+    include(resting_box(layer.deformation.rest, workspace.document.pictures().of(layer)));
+    include_map(workspace.maps.of(layer.id));
   }
-  for (const Complex& z : outline_of(cage_of(deformation, workspace.mode))) box.include(z);
+  placed = at_rest ? Similarity{} : workspace.placement(scene.edited);
+  include(resting_box(at_rest ? Cage{} : scene.deformation().rest, workspace.document.image()));
+  for (const Complex& z : outline_of(cage_of(deformation, workspace.mode))) include_point(z);
   if (!at_rest)
-    for (const Complex& z : deformation.outline) box.include(z);
+    for (const Complex& z : deformation.outline) include_point(z);
   if (method_named(deformation.method).uses_strokes)
     for (size_t i = 0; i < deformation.strokes.size(); ++i)
       for (const Complex& z : curve_of(deformation, static_cast<Index>(i), workspace.mode))
-        box.include(z);
+        include_point(z);
   if (!at_rest && workspace.map().has_map()) include_map(workspace.map());
   return box;
 }

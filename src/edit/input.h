@@ -13,8 +13,8 @@ struct Modifiers {
   bool operator==(const Modifiers&) const = default;
 };
 
-/// The state of the pointer in one frame: position in window px and in the plane, buttons and
-/// wheel.
+/// The state of the pointer in one frame: position in window px and in the plane of the edited
+/// layer, buttons and wheel.
 struct Input {
   Complex px, position;
   bool pressed = false, down = false, released = false, double_clicked = false;  ///< left button

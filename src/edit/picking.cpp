@@ -54,8 +54,8 @@ std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
   constexpr double kAtVertex = 1e-3;
   if (!has_cage_handles(workspace.shown.deformation(), workspace.mode)) return {};
   const CageHit hit = nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
-                                      workspace.display.viewport.plane_at_px(px));
-  if (hit.distance * workspace.display.viewport.zoom > workspace.display.handle_px ||
+                                      workspace.layer_view().plane_at_px(px));
+  if (hit.distance * workspace.layer_view().zoom > workspace.display.handle_px ||
       hit.t < kAtVertex || hit.t > 1 - kAtVertex)
     return {};
   return hit;
@@ -77,7 +77,7 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind == Handle::Kind::stroke) continue;
     const double here = std::abs(
-        workspace.display.viewport.px_at_plane(position_of(deformation, handle, workspace.mode)) -
+        workspace.layer_view().px_at_plane(position_of(deformation, handle, workspace.mode)) -
         px);
     // A pin at the same position as a cage point is drawn on top and picked first.
     if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
@@ -90,9 +90,9 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind != Handle::Kind::stroke) continue;
     const double here =
-        workspace.display.viewport.zoom *
+        workspace.layer_view().zoom *
         Polyline(without_repeats(curve_of(deformation, handle.index, workspace.mode)), false)
-            .nearest(workspace.display.viewport.plane_at_px(px))
+            .nearest(workspace.layer_view().plane_at_px(px))
             .distance;
     if (here >= distance) continue;
     best = handle;

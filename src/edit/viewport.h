@@ -1,6 +1,7 @@
 // The only conversion between window pixels and plane coordinates.
 #pragma once
 
+#include "core/geometry/similarity.h"
 #include "core/types.h"
 
 namespace holomorph {
@@ -10,13 +11,25 @@ struct Viewport {
   Complex center;                                   ///< plane point at the center of the canvas
   double zoom = 1;                                  ///< window px per plane unit
   double left = 0, top = 0, width = 1, height = 1;  ///< the canvas in window px
+  Complex turn = 1;  ///< rotates a layer's plane around the center; 1 for the scene's plane
 
   Complex px_at_plane(Complex z) const {
-    return {left + width / 2 + (z.real() - center.real()) * zoom,
-            top + height / 2 - (z.imag() - center.imag()) * zoom};
+    const Complex from_center = turn * (z - center) * zoom;
+    return {left + width / 2 + from_center.real(), top + height / 2 - from_center.imag()};
   }
   Complex plane_at_px(Complex px) const {
-    return center + Complex(px.real() - left - width / 2, -(px.imag() - top - height / 2)) / zoom;
+    return center + plane_vector({px.real() - left - width / 2, px.imag() - top - height / 2});
+  }
+  /// The vector in the plane that is displayed as this one, in window px.
+  Complex plane_vector(Complex px) const { return std::conj(px * turn) / zoom; }
+  /// The same view of the plane of a layer with this placement.
+  Viewport of_layer(const Similarity& placement) const {
+    Viewport view = *this;
+    const double scale = std::abs(placement.factor);
+    view.center = inverse(placement)(center);
+    view.zoom = zoom * scale;
+    view.turn = turn * placement.factor / scale;
+    return view;
   }
   bool contains_px(Complex px) const {
     return px.real() >= left && px.real() < left + width && px.imag() >= top &&

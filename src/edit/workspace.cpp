@@ -139,11 +139,16 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
   shown.preview.reset();
   playback = {};
   if (changes_closed_layer(scene)) return require_open_layer();
+  // A layer stays where it is displayed when what it follows is deleted.
+  const auto placed = [&](int id) {
+    return placement(layer_index(document.scene(), id));
+  };
   Shown::Entry entry = shown.entry_of(scene.deformation(), base);
   if (entry.sets_key && !require_pose()) return false;
   if (entry.sets_key) entry.deformation = keyed(std::move(entry.deformation));
   if (entry.deformation != scene.deformation())
     scene = with_deformation(std::move(scene), entry.deformation);
+  scene = without_lost_parents(std::move(scene), placed);
   if (!accepts(scene)) return false;
   if (entry.sets_key)
     shown.timeline.visible = shown.timeline.active = true;
@@ -316,7 +321,7 @@ void Workspace::show_next_fold() {
   if (folds().empty()) {
     const std::optional<Complex> overlaps = overlap();
     if (!overlaps) return messages.say("Nothing folds.");
-    display.viewport.center = *overlaps;
+    center_on(*overlaps);
     return messages.say("No folds, but two parts overlap here.", overlaps);
   }
   Points all;
@@ -325,7 +330,7 @@ void Workspace::show_next_fold() {
   visited_folds_ = std::move(all);
   mode = EditMode::pose;
   const Complex at = visited_folds_[fold_];
-  display.viewport.center = at;
+  center_on(at);
   const std::string number =
       visited_folds_.size() == 1
           ? ""

@@ -57,7 +57,7 @@ struct Playback {
 /// playback.
 bool advance(Playback& playback, const LiveMap& map, double now_ms);
 
-enum class ToolId { select, pen, pin, stroke, outline, angle, brush };
+enum class ToolId { select, pen, pin, stroke, outline, angle, brush, attach };
 
 /// How the canvas displays the scene.
 struct DisplayOptions {
@@ -117,6 +117,17 @@ struct Workspace {
   const std::vector<Fold>& folds() const;
   /// A point where parts overlap without a fold, unless pins have depths that say which is on top.
   std::optional<Complex> overlap() const;
+  /// Where the plane of the layer with an index lies in the scene's plane, as displayed.
+  Similarity placement(size_t layer) const { return maps.placement(document.scene(), layer); }
+  /// The canvas in the plane of the edited layer, in which tools work.
+  Viewport layer_view() const { return layer_view(document.scene().edited); }
+  Viewport layer_view(size_t layer) const {
+    return at_rest() ? display.viewport : display.viewport.of_layer(placement(layer));
+  }
+  /// Centers the canvas on a point of the edited layer.
+  void center_on(Complex z) {
+    display.viewport.center = display.viewport.plane_at_px(layer_view().px_at_plane(z));
+  }
   /// Whether the canvas shows the picture at rest.
   bool at_rest() const { return mode == EditMode::rest || display.show_original; }
   /// Whether the method uses an outline that is currently drawn.

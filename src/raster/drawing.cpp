@@ -78,7 +78,12 @@ void row_crossings(const std::vector<std::array<double, 4>>& edges,
 class Drawing {
  public:
   Drawing(const RasterJob& job, double left, double top, int width, int height)
-      : job_(job), left_(left), top_(top), scale_(job.pixels_per_unit), output_(width, height) {
+      : job_(job),
+        left_(left),
+        top_(top),
+        scale_(job.pixels_per_unit),
+        is_placed_(!is_identity(job.placement)),
+        output_(width, height) {
     if (job.source && job.view == View::image && job.surroundings) add_surroundings();
     if (job.mesh) add_mesh();
     bin();
@@ -96,15 +101,24 @@ class Drawing {
   };
   using Edge = std::array<double, 4>;
 
-  double out_x(Complex z) const { return (z.real() - left_) * scale_; }
-  double out_y(Complex z) const { return (top_ - z.imag()) * scale_; }
-  Edge edge_of(Complex a, Complex b) const { return {out_x(a), out_y(a), out_x(b), out_y(b)}; }
+  /// The output pixel of a position, as x + iy with y down.
+  Complex out(Complex z) const {
+    if (is_placed_) z = job_.placement(z);
+    return {(z.real() - left_) * scale_, (top_ - z.imag()) * scale_};
+  }
+  Edge edge_of(Complex a, Complex b) const {
+    const Complex p = out(a), q = out(b);
+    return {p.real(), p.imag(), q.real(), q.imag()};
+  }
 
   /// Adds a triangle with its corners at `at`, which have the source coordinates (u, v).
   void add_piece(const std::array<Complex, 3>& at, const double u[3], const double v[3],
                  bool outside) {
     Piece piece{};
-    for (int k = 0; k < 3; ++k) piece.x[k] = out_x(at[k]), piece.y[k] = out_y(at[k]);
+    for (int k = 0; k < 3; ++k) {
+      const Complex p = out(at[k]);
+      piece.x[k] = p.real(), piece.y[k] = p.imag();
+    }
     const double ax = piece.x[1] - piece.x[0], ay = piece.y[1] - piece.y[0];
     const double bx = piece.x[2] - piece.x[0], by = piece.y[2] - piece.y[0];
     const double area = ax * by - ay * bx;
@@ -144,6 +158,9 @@ class Drawing {
     const double u1[3] = {0, w, w}, v1[3] = {0, 0, h}, u2[3] = {0, w, 0}, v2[3] = {0, h, h};
     add_piece({a, b, c}, u1, v1, job_.mesh != nullptr);
     add_piece({a, c, d}, u2, v2, job_.mesh != nullptr);
+    if (is_placed_)  // at rest, the rectangle's edges lie between pixels
+      for (const auto& [from, to] : {std::pair(a, b), {b, c}, {c, d}, {d, a}})
+        silhouette_.push_back(edge_of(from, to));
     if (!job_.mesh) return;
     for_each_boundary_edge([&](size_t a, size_t b) {
       cage_.push_back(edge_of(job_.mesh->vertices[a], job_.mesh->vertices[b]));
@@ -372,6 +389,7 @@ class Drawing {
 
   const RasterJob& job_;
   double left_, top_, scale_;
+  bool is_placed_;
   Image output_;
   std::vector<Piece> pieces_;
   std::vector<Edge> silhouette_, cage_;

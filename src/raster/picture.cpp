@@ -1,9 +1,13 @@
 // Exports use the same mesh and precision as the canvas, so both show the same picture.
 #include "raster/picture.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/maps/distortion.h"
 #include "raster/compose.h"
+#include "raster/motion_box.h"
+#include "scene/attachments.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
 #include "scene/motion.h"
@@ -28,8 +32,9 @@ class PictureMaker::LayerMaker {
   bool visible() const { return layer_.visible && source_; }
   LayerInk ink() const { return ink_of(layer_); }
 
-  RasterResult picture(const PictureOptions& options, double top) {
+  RasterResult picture(const PictureOptions& options, double top, const Similarity& placement) {
     RasterJob job = job_of(options, top);
+    job.placement = placement;
     if (!deformation_.has_cage()) {
       if (options.view != View::image)
         throw Error(ErrorKind::bad_input, "this view needs a cage, and the scene has none yet");
@@ -54,31 +59,38 @@ class PictureMaker::LayerMaker {
     return rasterized(job_of(options, top));
   }
 
-  /// Extends `box` to contain all positions of the mesh during the motion. Returns false if
-  /// `keep_going` returns false.
-  bool include_motion(Box& box, const std::function<bool()>& keep_going) {
-    if (!deformation_.has_cage()) return true;
-    const auto map = [&](double time) { return map_at(time, false).f; };
-    VectorXc before = map(0);
-    for (const Complex& z : before) box.include(z);
-    for (const auto& [from, to, held] : motion_.key_intervals()) {
-      // A piece that turns by at most 45 degrees is short enough to estimate how the paths bend.
-      const double turn = motion_.rotation_at(to) - motion_.rotation_at(from);
-      const int pieces =
-          held ? 0 : 2 + static_cast<int>(std::min(std::abs(turn) / (kPi / 4), kMaxPieces));
-      for (int i = 0; i < pieces; ++i) {
-        const double start = from + (to - from) * i / pieces,
-                     end = from + (to - from) * (i + 1) / pieces;
-        VectorXc after = map(end);
-        if (!include_between(start, end, before, after, box, keep_going, kMaxHalvings))
-          return false;
-        before = std::move(after);
-      }
-      if (!held) continue;
-      before = map(to);
-      for (const Complex& z : before) box.include(z);
-    }
-    return true;
+  /// How the layer moves what is attached to it.
+  Similarity motion(const std::optional<double>& time, const Attachment& attachment) {
+    if (!deformation_.has_cage()) return {};
+    const SampledMap map = map_at(time, false);
+    return Anchor(prepared_->mesh, deformation_, attachment).motion(as_span(map.f));
+  }
+
+  /// The intervals between the keys that play.
+  std::vector<Motion::KeyInterval> key_intervals() {
+    if (!deformation_.has_cage()) return {};
+    map_at(0.0, false);
+    return motion_.key_intervals();
+  }
+  /// How many pieces of an interval are short enough to estimate how paths bend: each turns by at
+  /// most 45 degrees.
+  int pieces_between(double from, double to) {
+    if (key_intervals().empty()) return 0;
+    constexpr double kMaxPieces = 2000;
+    const double turn = motion_.rotation_at(to) - motion_.rotation_at(from);
+    return 2 + static_cast<int>(std::min(std::abs(turn) / (kPi / 4), kMaxPieces));
+  }
+
+  /// What determines the extent of the layer at a time, in its own plane: the positions of the
+  /// mesh, and the corners of the picture if it moves as a whole.
+  VectorXc extent_at(double time, bool with_picture) {
+    VectorXc points = deformation_.has_cage() ? map_at(time, false).f : VectorXc();
+    if (!with_picture || !source_) return points;
+    const double w = source_->width, h = source_->height;
+    const Index count = points.size();
+    points.conservativeResize(count + 4);
+    points.tail(4) << Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h);
+    return points;
   }
   void include_picture(Box& box) const {
     if (!source_) return;
@@ -87,33 +99,6 @@ class PictureMaker::LayerMaker {
   }
 
  private:
-  static constexpr int kMaxHalvings = 10;
-  static constexpr double kMaxPieces = 2000;
-
-  /// Extends `box` to contain the motion from one time to another. Halves the interval until the
-  /// path of each vertex hardly bends. The path is then bounded by its ends and its middle, up to a
-  /// margin.
-  bool include_between(double from, double to, const VectorXc& at_from, const VectorXc& at_to,
-                       Box& box, const std::function<bool()>& keep_going, int halves) {
-    const double kBend = std::max(1.0, 1e-3 * box.diagonal());  // plane units
-    if (!keep_going()) return false;
-    const double middle = 0.5 * (from + to);
-    const VectorXc at_middle = map_at(middle, false).f;
-    // A parabola deviates from the chords of its halves by an eighth of `bend`. The margin below is
-    // twice that.
-    const double bend = (at_from - 2 * at_middle + at_to).cwiseAbs().maxCoeff();
-    if (bend > kBend && halves > 0)
-      return include_between(from, middle, at_from, at_middle, box, keep_going, halves - 1) &&
-             include_between(middle, to, at_middle, at_to, box, keep_going, halves - 1);
-    Box here;
-    for (const VectorXc* f : {&at_from, &at_middle, &at_to})
-      for (const Complex& z : *f) here.include(z);
-    const Complex margin(bend / 4, bend / 4);
-    box.include(Complex(here.left, here.bottom) - (bend > 1e-3 ? margin : 0));
-    box.include(Complex(here.right, here.top) + (bend > 1e-3 ? margin : 0));
-    return true;
-  }
-
   RasterJob job_of(const PictureOptions& options, double top) const {
     RasterJob job;
     job.source = source_;
@@ -169,7 +154,7 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
   LayerMaker& edited = *layers_[scene_.edited];
   if (options.view != View::image || !has_layers(scene_)) {
     const double top = edited.source() ? edited.source()->height : 0;
-    RasterResult result = edited.picture(options, top);
+    RasterResult result = edited.picture(options, top, placement(scene_.edited, options.time));
     if (options.view != View::image) return result;
     if (scene_.background.fill == Background::Fill::original)
       result = composed(edited.original(options, top), result, options.scale);
@@ -193,8 +178,10 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
   if (scene_.background.fill == Background::Fill::original)
     for (const auto& layer : layers_)
       if (layer->visible() && layer->source()) add(layer->original(options, top));
-  for (const auto& layer : layers_)
-    if (layer->visible()) add(layer->picture(options, top), layer->ink());
+  for (size_t i = 0; i < layers_.size(); ++i) {
+    LayerMaker& layer = *layers_[i];
+    if (layer.visible()) add(layer.picture(options, top, placement(i, options.time)), layer.ink());
+  }
   if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
   if (options.crops_to_filled) *result = cropped_to_filled(std::move(*result), options.scale);
   if (scene_.background.fill == Background::Fill::color)
@@ -202,13 +189,57 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
   return std::move(*result);
 }
 
+Similarity PictureMaker::placement(size_t layer, const std::optional<double>& time) {
+  return placement_of(scene_, layer, [&](size_t child) {
+    const Layer& it = *scene_.layers[child];
+    return layers_[*parent_of(scene_, it)]->motion(time, *it.attachment);
+  });
+}
+
+/// The parts of a layer's motion: between the keys of the layer itself and of those that carry it.
+std::vector<MotionPart> PictureMaker::motion_parts(size_t layer) {
+  std::vector<LayerMaker*> moving;
+  std::vector<double> times;
+  for (std::optional<size_t> i = layer; i; i = parent_of(scene_, *scene_.layers[*i])) {
+    moving.push_back(layers_[*i].get());
+    for (const auto& [from, to, held] : moving.back()->key_intervals())
+      times.insert(times.end(), {from, to});
+  }
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  std::vector<MotionPart> parts;
+  for (size_t i = 0; i + 1 < times.size(); ++i) {
+    MotionPart part{times[i], times[i + 1], 0};
+    for (LayerMaker* each : moving) {
+      const auto intervals = each->key_intervals();
+      const bool moves = std::ranges::any_of(intervals, [&](const Motion::KeyInterval& interval) {
+        return !interval.held && interval.from < part.to && part.from < interval.to;
+      });
+      if (moves) part.pieces = std::max(part.pieces, each->pieces_between(part.from, part.to));
+    }
+    parts.push_back(part);
+  }
+  return parts;
+}
+
 std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep_going) {
   Box box;
   for (const auto& layer : layers_)
     if (layer->visible()) layer->include_picture(box);
-  for (const auto& layer : layers_)
-    if ((layer->visible() || !has_layers(scene_)) && !layer->include_motion(box, keep_going))
-      return {};
+  for (size_t i = 0; i < layers_.size(); ++i) {
+    LayerMaker& layer = *layers_[i];
+    if (!layer.visible() && has_layers(scene_)) continue;
+    const bool is_placed = parent_of(scene_, *scene_.layers[i]) ||
+                           !is_identity(scene_.layers[i]->placement);
+    const auto points_at = [&](double time) {
+      VectorXc points = layer.extent_at(time, is_placed);
+      if (!is_placed) return points;
+      const Similarity placed = placement(i, time);
+      for (Complex& z : points) z = placed(z);
+      return points;
+    };
+    if (!include_motion(box, points_at, motion_parts(i), keep_going)) return {};
+  }
   // Rounding errors of single-precision operators must not add a row of pixels.
   constexpr double kRounding = 1e-3;
   return Box{box.left + kRounding, box.bottom + kRounding, box.right - kRounding,

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "raster/motion_box.h"
 #include "raster/raster.h"
 #include "scene/pictures.h"
 
@@ -44,6 +45,10 @@ class PictureMaker {
 
  private:
   class LayerMaker;
+
+  /// Where the plane of a layer lies in the scene's plane.
+  Similarity placement(size_t layer, const std::optional<double>& time);
+  std::vector<MotionPart> motion_parts(size_t layer);
 
   const Scene& scene_;
   std::vector<std::unique_ptr<LayerMaker>> layers_;  ///< from the bottom to the top

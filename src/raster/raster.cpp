@@ -49,6 +49,15 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   image = std::move(cut);
 }
 
+/// The bounding box of the source's rectangle where the job places it.
+Box placed_rectangle(const RasterJob& job) {
+  const double w = job.source->width, h = job.source->height;
+  Box box;
+  for (const Complex& corner : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
+    box.include(job.placement(corner));
+  return box;
+}
+
 /// The bounding box of the source rectangle's image under the map, computed from the mesh vertices
 /// inside the rectangle and the points where mesh edges cross its border.
 Box image_of_rectangle(const RasterJob& job) {
@@ -68,7 +77,7 @@ Box image_of_rectangle(const RasterJob& job) {
         if (a[side] >= 0 && b[side] < 0) to = std::min(to, a[side] / (a[side] - b[side]));
       }
       if (from > to) continue;
-      const Complex p = job.positions[i], q = job.positions[j];
+      const Complex p = job.placement(job.positions[i]), q = job.placement(job.positions[j]);
       box.include((1 - from) * p + from * q);
       box.include((1 - to) * p + to * q);
     }
@@ -92,6 +101,7 @@ RasterResult rasterized(const RasterJob& job) {
                   "scale");
   };
   if (job.source) check_size(job.source->width * scale, height * scale);
+  constexpr double kRounding = 1e-3;  // tolerance for single-precision operators
   PixelRect least{0, 0, 0, 0};
   if (job.source) {
     const int top = static_cast<int>(std::floor((top_edge - height) * scale));
@@ -99,20 +109,30 @@ RasterResult rasterized(const RasterJob& job) {
              top_edge == height ? std::max(1, static_cast<int>(std::lround(height * scale)))
                                 : static_cast<int>(std::ceil(top_edge * scale)) - top};
   }
-  if (job.region) {
-    const Box& box = *job.region;
-    least.left = static_cast<int>(std::floor(std::clamp(box.left * scale, -1e8, 1e8)));
-    least.top = static_cast<int>(std::floor(std::clamp((top_edge - box.top) * scale, -1e8, 1e8)));
+  std::optional<Box> region = job.region;
+  if (job.source && !region && !is_identity(job.placement)) region = placed_rectangle(job);
+  if (region) {
+    const Box& box = *region;
+    const double slack = job.region ? 0 : kRounding;
+    const auto whole = [&](double low) {
+      return static_cast<int>(std::floor(std::clamp(low + slack, -1e8, 1e8)));
+    };
+    least.left = whole(box.left * scale);
+    least.top = whole((top_edge - box.top) * scale);
     check_size(box.width() * scale + 1, box.height() * scale + 1);
-    least.width = static_cast<int>(std::ceil(box.right * scale)) - least.left;
-    least.height = static_cast<int>(std::ceil((top_edge - box.bottom) * scale)) - least.top;
+    least.width = static_cast<int>(std::ceil(box.right * scale - slack)) - least.left;
+    least.height =
+        static_cast<int>(std::ceil((top_edge - box.bottom) * scale - slack)) - least.top;
   }
   double left = least.left, top = least.top, right = least.left + least.width,
          bottom = least.top + least.height;
   if (job.mesh && !job.region && !(job.crop && job.source)) {
-    const Box box = job.source ? image_of_rectangle(job) : box_of(job.positions);
+    Box box;
+    if (job.source)
+      box = image_of_rectangle(job);
+    else
+      for (const Complex& z : job.positions) box.include(job.placement(z));
     if (!job.source) left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
-    constexpr double kRounding = 1e-3;  // tolerance for single-precision operators
     if (!box.empty()) {
       left = std::min(left, std::floor(box.left * scale + kRounding));
       right = std::max(right, std::ceil(box.right * scale - kRounding));

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/geometry/similarity.h"
 #include "core/maps/heat.h"
 #include "core/mesh/mesh.h"
 #include "scene/formats/image.h"
@@ -20,6 +21,7 @@ struct RasterJob {
   HeatScale scale;
   double pixels_per_unit = 1;  ///< output pixels per image pixel
   bool surroundings = true;    ///< also draw the source outside the rest cage
+  Similarity placement = {};   ///< moves everything that is drawn
   bool crop = false;           ///< crop to the source's rectangle; otherwise crop nothing
   std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
   std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the source's height

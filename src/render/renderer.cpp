@@ -395,8 +395,10 @@ void Renderer::draw(const RenderFrame& frame) {
   const double sx = 2 * frame.zoom / std::floor(frame.canvas_width),
                sy = 2 * frame.zoom / std::floor(frame.canvas_height);
   const auto single = [](double x) { return static_cast<float>(x); };
-  gl.use({single(sx), 0, 0, 0, single(sy), 0, single(-sx * frame.center.real()),
-          single(-sy * frame.center.imag()), 1},
+  const double cosine = frame.turn.real(), sine = frame.turn.imag();
+  const Complex origin = -frame.turn * frame.center;
+  gl.use({single(sx * cosine), single(sy * sine), 0, single(-sx * sine), single(sy * cosine), 0,
+          single(sx * origin.real()), single(sy * origin.imag()), 1},
          frame.diverging);
   const bool picture = gl.width > 0;
   // The backdrop, which is visible where the picture is transparent.

@@ -38,6 +38,7 @@ struct RenderFrame {
   double canvas_left = 0, canvas_top = 0, canvas_width = 1, canvas_height = 1;  ///< framebuffer px
   Complex center;   ///< plane point at the canvas's center
   double zoom = 1;  ///< framebuffer px per plane unit
+  Complex turn = 1;  ///< rotates the plane around the center; its absolute value is 1
   View view = View::image;
   bool diverging = false;  ///< use the diverging colors for heat maps
   Placement placement = Placement::positions;

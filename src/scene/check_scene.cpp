@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/geometry/polyline.h"
 #include "core/outline/outline_match.h"
+#include "scene/attachments.h"
 #include "scene/budget.h"
 #include "scene/formats/scene_json.h"
 
@@ -203,6 +204,9 @@ void check_scene(const Scene& scene) {
     const Layer& layer = *scene.layers[i];
     try {
       check_texts(layer);
+      check_point("the placement", layer.placement(0));
+      check_range("the scale of the placement", std::abs(layer.placement.factor),
+                  kMinPlacementScale, kMaxPlacementScale);
       if (layer.image && layer.image->width > 0)
         for (const int side : {layer.image->width, layer.image->height})
           check_range("the picture's size", side, 1, kMaxImageSide);
@@ -218,6 +222,7 @@ void check_scene(const Scene& scene) {
       throw Error(error.kind(), numbered("layer", i) + ": " + error.what(), error.where());
     }
   }
+  check_attachments(scene);
   // Unknown keys may be large and deeply nested. Their size is known only after writing the text.
   if (has_extras(scene))
     scene_from_json(json_of(scene), "the scene");

@@ -34,6 +34,7 @@ struct Pin {
   std::optional<double> turn = {};    ///< see PosePin::turn
   std::optional<double> radius = {};  ///< see RestPin::radius
   int depth = 0;                      ///< the picture near pins with greater depth is drawn on top
+  int id = 0;                         ///< set where a layer is attached to the pin; else 0
   bool operator==(const Pin&) const = default;
 };
 
@@ -41,6 +42,7 @@ struct Pin {
 struct Stroke {
   Points rest, pose;
   Extra extra;
+  int id = 0;  ///< set where a layer is attached to the stroke; else 0
   bool operator==(const Stroke&) const = default;
 };
 

@@ -1,6 +1,8 @@
 // Layers are identified by their ids, which do not change when layers move.
 #include "scene/layer_maps.h"
 
+#include <algorithm>
+
 namespace holomorph {
 
 LiveMap& LayerMaps::of(int id) {
@@ -31,10 +33,36 @@ bool LayerMaps::update_others(const Scene& scene, const Moment& moment) {
     entry = gone ? maps_.erase(entry) : std::next(entry);
   }
   bool changed = false;
-  for (const SharedLayer& layer : scene.layers)
-    if (layer->id != scene.layer().id && layer->visible)
-      changed = of(layer->id).update(layer->deformation, {}, moment) || changed;
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = *scene.layers[i];
+    if (i != scene.edited && (layer.visible || carries_visible(scene, i)))
+      changed = of(layer.id).update(layer.deformation, {}, moment) || changed;
+  }
   return changed;
+}
+
+Similarity LayerMaps::motion(const Layer& parent, const Attachment& attachment) const {
+  const LiveMap& map = of(parent.id);
+  if (!map.has_map() || !parent.deformation.has_cage()) return {};
+  const std::shared_ptr<const Mesh>& mesh = map.prepared()->mesh;
+  auto known = std::ranges::find(anchors_, attachment, &std::pair<Attachment, Anchor>::first);
+  if (known != anchors_.end() && !known->second.is_for(mesh, parent.deformation, attachment)) {
+    anchors_.erase(known);
+    known = anchors_.end();
+  }
+  if (known == anchors_.end()) {
+    if (anchors_.size() >= kMaxLayers) anchors_.clear();
+    anchors_.emplace_back(attachment, Anchor(mesh, parent.deformation, attachment));
+    known = anchors_.end() - 1;
+  }
+  return known->second.motion(as_span(map.map().f));
+}
+
+Similarity LayerMaps::placement(const Scene& scene, size_t layer) const {
+  return placement_of(scene, layer, [&](size_t child) {
+    const Layer& it = *scene.layers[child];
+    return motion(*scene.layers[*parent_of(scene, it)], *it.attachment);
+  });
 }
 
 void LayerMaps::clear() {
@@ -43,6 +71,7 @@ void LayerMaps::clear() {
     spare_.push_back(std::move(map));
   }
   maps_.clear();
+  anchors_.clear();
 }
 
 }  // namespace holomorph

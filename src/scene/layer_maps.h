@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "scene/attachments.h"
 #include "scene/layers.h"
 #include "scene/live_map.h"
 
@@ -22,9 +23,15 @@ class LayerMaps {
   LiveMap& of(int id);
   /// The map of the layer with this id, or an empty map if it does not exist yet.
   const LiveMap& of(int id) const;
-  /// Updates the maps of all visible layers, except the edited layer, to the given moment. Releases
+  /// Updates the maps of all visible layers and of those that they follow, except the edited layer,
+  /// to the given moment. Releases
   /// the maps of deleted layers. Returns whether any map changed.
   bool update_others(const Scene& scene, const Moment& moment);
+  /// Where the plane of a layer lies in the scene's plane, with the displayed maps of the layers
+  /// that it follows. `scene` is the document's.
+  Similarity placement(const Scene& scene, size_t layer) const;
+  /// How the map of a layer moves what is attached to it; the identity while it has no map.
+  Similarity motion(const Layer& parent, const Attachment& attachment) const;
   /// Discards all maps, including those that workers are preparing.
   void clear();
 
@@ -35,6 +42,8 @@ class LayerMaps {
   std::map<int, std::unique_ptr<LiveMap>> maps_;
   std::vector<std::unique_ptr<LiveMap>> spare_;
   LiveMap none_;
+  /// The anchors of the attachments that were displayed last, because placements are needed often.
+  mutable std::vector<std::pair<Attachment, Anchor>> anchors_;
 };
 
 }  // namespace holomorph

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <map>
 
 #include "core/error.h"
 
@@ -13,12 +14,17 @@ namespace {
 
 /// An id that has never been used before, not even by a deleted layer, because undo may bring that
 /// layer back.
+std::atomic<int> last_layer_id = 1'000'000;
 int fresh_layer_id() {
-  static std::atomic<int> last = 1'000'000;
-  return ++last;
+  return ++last_layer_id;
 }
 
 }  // namespace
+
+void reserve_layer_ids(int last) {
+  for (int known = last_layer_id; known < last;)
+    if (last_layer_id.compare_exchange_weak(known, last)) return;
+}
 
 size_t layer_index(const Scene& scene, int id) {
   const auto found =
@@ -40,7 +46,7 @@ bool is_blended(const Layer& layer) {
 bool has_layers(const Scene& scene) {
   const Layer& layer = scene.layer();
   return scene.layers.size() > 1 || !layer.name.empty() || !layer.visible || layer.locked ||
-         is_blended(layer) || !layer.extra.empty();
+         is_blended(layer) || !is_identity(layer.placement) || !layer.extra.empty();
 }
 
 Scene with_layer_at(Scene scene, size_t number, Layer layer) {
@@ -53,7 +59,11 @@ Scene with_layers_added(Scene scene, const Scene& added) {
   if (scene.layers.size() + added.layers.size() > kMaxLayers)
     throw Error(ErrorKind::bad_input, "a scene has at most 100 layers");
   std::vector<Layer> more = layers_of(added);
-  for (Layer& layer : more) layer.id = fresh_layer_id();
+  std::map<int, int> fresh;
+  for (Layer& layer : more) layer.id = fresh[layer.id] = fresh_layer_id();
+  for (Layer& layer : more)
+    if (layer.attachment && fresh.contains(layer.attachment->layer))
+      layer.attachment->layer = fresh[layer.attachment->layer];
   const std::vector<SharedLayer> above = shared(std::move(more));
   const size_t place = scene.edited + 1;
   scene.layers.insert(scene.layers.begin() + static_cast<long>(place), above.begin(), above.end());

@@ -7,6 +7,8 @@ namespace holomorph {
 
 /// The index of the layer with this id; the number of layers if there is none.
 size_t layer_index(const Scene& scene, int id);
+/// Makes sure that no layer will be given an id up to this one.
+void reserve_layer_ids(int last);
 /// The layer's name. If it is empty, the name of the layer's picture. If there is no picture
 /// either, "Layer" and the layer's number, counting from 1.
 std::string title_of_layer(const Scene& scene, size_t layer);
@@ -18,7 +20,8 @@ bool has_layers(const Scene& scene);
 /// Replaces the layer at this index. The new layer takes over the id of the old one.
 Scene with_layer_at(Scene scene, size_t number, Layer layer);
 /// Adds the layers of another scene above the edited layer. The edited layer of `added` becomes the
-/// edited layer of the result. Throws Error if the result would have more than kMaxLayers layers.
+/// edited layer of the result. Added layers get new ids, and attachments among them follow these.
+/// Throws Error if the result would have more than kMaxLayers layers.
 Scene with_layers_added(Scene scene, const Scene& added);
 /// Duplicates the edited layer. The copy is placed above it and becomes the edited layer.
 Scene with_layer_duplicated(const Scene& scene);

@@ -12,6 +12,8 @@ inline constexpr size_t kMaxSegments = 5000;   ///< in one cage
 inline constexpr size_t kMaxHoles = 100;       ///< in one cage
 inline constexpr size_t kMaxPins = 2000, kMaxStrokes = 200;
 inline constexpr size_t kMaxCurvePoints = 20000;  ///< in one stroke or outline
+inline constexpr int kMaxId = 1'000'000'000;      ///< of layers, pins and strokes
+inline constexpr double kMinPlacementScale = 1e-6, kMaxPlacementScale = 1e6;
 inline constexpr double kMaxDabLevel = 10;        ///< powers of ten, in absolute value
 inline constexpr double kMaxCornerTurn = 1e3;     ///< radians: 159 full turns
 inline constexpr double kMaxPinTurn = 1e5;        ///< radians

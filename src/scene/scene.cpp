@@ -7,7 +7,8 @@ namespace holomorph {
 bool Layer::operator==(const Layer& other) const {
   return name == other.name && visible == other.visible && locked == other.locked &&
          opacity == other.opacity && blending == other.blending && image == other.image &&
-         deformation == other.deformation && extra == other.extra;
+         deformation == other.deformation && attachment == other.attachment &&
+         placement == other.placement && extra == other.extra;
 }
 
 Scene with_layer(Scene scene, Layer layer) {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "core/geometry/similarity.h"
 #include "scene/deformation.h"
 
 namespace holomorph {
@@ -24,9 +25,19 @@ struct ImageReference {
 enum class Blending { normal, multiply, screen, overlay, add };
 inline constexpr std::array kBlendingNames{"normal", "multiply", "screen", "overlay", "add"};
 
+/// What a layer follows: a pin, a stroke or a place of the picture of another layer, its parent.
+struct Attachment {
+  enum class To { pin, stroke, place };
+  int layer = 0;  ///< the parent's id
+  To to = To::place;
+  int handle = 0;      ///< the id of the parent's pin or stroke
+  Complex place = {};  ///< on the parent's picture, at rest
+  bool operator==(const Attachment&) const = default;
+};
+
 /// A picture and its deformation.
 struct Layer {
-  int id = 1;  ///< identifies a layer within a session; not saved
+  int id = 1;  ///< identifies a layer; saved only where another layer is attached to it
   std::string name = {};
   bool visible = true;
   bool locked = false;  ///< edits are refused
@@ -34,9 +45,13 @@ struct Layer {
   Blending blending = Blending::normal;
   std::optional<ImageReference> image = {};
   Deformation deformation = {};
+  std::optional<Attachment> attachment = {};
+  /// Where the layer's plane lies in the scene's. For an attached layer, where it would lie if its
+  /// parent were at rest.
+  Similarity placement = {};
   Extra extra = {};
 
-  /// Compares everything except ids.
+  /// Compares everything except the id.
   bool operator==(const Layer& other) const;
 };
 

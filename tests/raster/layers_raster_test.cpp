@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "raster/compose.h"
 #include "raster/picture.h"
+#include "scene/attachments.h"
 #include "scene/layers.h"
 #include "support/scenes.h"
 #include "support/seeds.h"
@@ -274,4 +275,87 @@ TEST_CASE("The same layer pixels give the same bits, and a faint lowest layer st
   fade(faint, half);
   CHECK(pixel_at(faint, 0, 0) == Pixel{255, 0, 0, 128});
   CHECK(composed({Image(4, 4), 0}, {red, 0}, 1, half).image == faint);
+}
+
+namespace {
+
+/// The blue layer attached to the middle of the red one.
+TwoLayers attached_layers() {
+  TwoLayers two;
+  auto [attachment, scene] =
+      attachment_to(two.scene, {0, Attachment::To::place, 0, {30, 20}});
+  two.scene = with_attachment(std::move(scene), 1, attachment, {}, {}, {});
+  return two;
+}
+
+Scene with_lower_pose(Scene scene, Complex factor, Complex shift) {
+  Layer lower = *scene.layers[0];
+  for (Points& segment : lower.deformation.pose.segments)
+    for (Complex& z : segment) z = factor * z + shift;
+  return with_layer_at(std::move(scene), 0, std::move(lower));
+}
+
+}  // namespace
+
+TEST_CASE("An attached layer is drawn where its parent takes it") {
+  const TwoLayers still = attached_layers();
+  const Image at_rest = still.drawn().image;
+  CHECK(at_rest == TwoLayers().drawn().image);
+
+  TwoLayers shifted = still;
+  shifted.scene = with_lower_pose(still.scene, 1, {7, 11});
+  const RasterResult there = shifted.drawn({.region = Box{7, 11, 67, 51}});
+  CHECK(there.image == at_rest);
+
+  // A quarter turn exchanges rows and columns.
+  TwoLayers turned = still;
+  turned.scene = with_lower_pose(still.scene, {0, 1}, {40, 0});
+  const Image picture = turned.drawn({.region = Box{0, 0, 40, 60}}).image;
+  REQUIRE(picture.width == 40);
+  REQUIRE(picture.height == 60);
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 60; ++column)
+      CHECK(pixel_at(picture, row, 59 - column) == pixel_at(at_rest, column, row));
+}
+
+TEST_CASE("A hidden parent still moves what is attached to it") {
+  TwoLayers two = attached_layers();
+  two.scene = with_lower_pose(two.scene, 1, {5, 3});
+  Layer lower = *two.scene.layers[0];
+  lower.visible = false;
+  two.scene = with_layer_at(two.scene, 0, lower);
+  const RasterResult drawn = two.drawn();
+  CHECK(drawn.corner == Complex(5, 3));
+  CHECK(drawn.image == filled(30, 20, kBlue));
+}
+
+TEST_CASE("An attached layer without a cage is carried as a whole, and films have room for it") {
+  TwoLayers two = attached_layers();
+  Layer upper = *two.scene.layers[1];
+  upper.deformation = {};
+  two.scene = with_layer_at(two.scene, 1, upper);
+  CHECK(two.drawn().image == TwoLayers().drawn().image);
+
+  // The parent turns by a quarter; the layer with it.
+  Layer lower = *two.scene.layers[0];
+  Deformation& deformation = lower.deformation;
+  const Pose rest = whole_pose_of(deformation);
+  Pose turned = rest;
+  for (Points& segment : turned.cage.segments)
+    for (Complex& z : segment) z = Complex(0, 1) * (z - Complex(30, 20)) + Complex(30, 20);
+  deformation.keyframes = {{0, rest, Ease::linear}, {1, turned, Ease::linear}};
+  two.scene = with_layer_at(two.scene, 0, lower);
+  const Box box = *PictureMaker(two.scene, &two.blue, two.pictures).motion_region();
+  for (const double time : {0.0, 0.3, 0.5, 0.8, 1.0}) {
+    const RasterResult frame = two.drawn({.time = time});
+    const RasterResult cut = two.drawn({.region = box, .time = time});
+    CHECK(frame.image.width <= cut.image.width);
+    CHECK(frame.image.height <= cut.image.height);
+    int filled_whole = 0, filled_cut = 0;
+    for (const auto& [image, count] :
+         {std::pair(&frame.image, &filled_whole), {&cut.image, &filled_cut}})
+      for (int r = 0; r < image->height; ++r)
+        for (int c = 0; c < image->width; ++c) *count += image->at(c, r)[3] > 0;
+    CHECK(std::abs(filled_whole - filled_cut) < 8);  // partly filled pixels at the edges
+  }
 }

@@ -20,6 +20,7 @@ struct TestWorkspace {
     tools.push_back(outline_tool());
     tools.push_back(angle_tool());
     tools.push_back(brush_tool());
+    tools.push_back(attach_tool());
     workspace.display.viewport = {{100, 100}, 1, 0, 0, 1000, 1000};
     if (!polygon.empty()) workspace.commit("Cage", with_cage(Deformation{}, polygon));
     settle();
@@ -30,10 +31,12 @@ struct TestWorkspace {
       if (tool->id() == workspace.tools.active) return *tool;
     return *tools[0];
   }
+  /// The pointer at a point of the scene's plane.
   Input at(Complex z, Modifiers mods = {}) const {
     Input input;
-    input.position = z;
     input.px = workspace.display.viewport.px_at_plane(z);
+    const Similarity placed = workspace.placement(workspace.document.scene().edited);
+    input.position = is_identity(placed) ? z : workspace.layer_view().plane_at_px(input.px);
     input.inside = true;
     input.mods = mods;
     input.now_ms = now_ms;

@@ -17,6 +17,12 @@ double texture_zoom(const Box& box) {
   return std::exp2(std::floor(std::log2(most / std::max({box.width(), box.height(), 1e-6}))));
 }
 
+void set_view(RenderFrame& frame, const Viewport& view, const CanvasFrame& at) {
+  frame.center = view.center;
+  frame.zoom = view.zoom * at.ratio;
+  frame.turn = view.turn;
+}
+
 RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   RenderFrame frame;
   frame.window_width = at.window_width;
@@ -25,8 +31,7 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   frame.canvas_top = view.top * at.ratio;
   frame.canvas_width = view.width * at.ratio;
   frame.canvas_height = view.height * at.ratio;
-  frame.center = view.center;
-  frame.zoom = view.zoom * at.ratio;
+  set_view(frame, view, at);
   frame.background = at.background;
   frame.backdrop = at.page_a;
   frame.other_backdrop = at.page_b;
@@ -34,6 +39,10 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   frame.shadow = at.shadow * at.ratio;
   frame.shadow_alpha = at.shadow_alpha;
   return frame;
+}
+
+bool is_moved(const Workspace& workspace, const Layer& layer) {
+  return !is_identity(workspace.placement(layer_index(workspace.document.scene(), layer.id)));
 }
 
 /// The color of a solid background, which replaces the theme's background.
@@ -107,7 +116,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     drawn.push_back(&layer);
   }
   // With opacities or blending modes, the page is drawn alone, and the layers are combined away
-  // from the window.
+  // from the window. The page is also drawn alone if its layer has been moved away from it.
   const bool combines = !edited_only && std::ranges::any_of(drawn, [](const Layer* layer) {
     return is_blended(*layer);
   });
@@ -117,7 +126,8 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
                            std::move(drawing));
     frame.over = true;
   };
-  if (drawn.empty() || combines) {
+  const bool places = !drawn.empty() && is_moved(workspace, *drawn.front());
+  if (drawn.empty() || combines || places) {
     RenderFrame page = frame;
     page.content = Content::nothing;
     paint(drawn.empty() ? edited : *drawn.front(), page);
@@ -145,6 +155,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
   const std::vector<OnionSkin> skins = workspace.onion_skins();
   for (const Layer* layer : drawn) {
     RenderFrame drawing = frame;
+    if (!original) set_view(drawing, workspace.layer_view(layer_index(scene, layer->id)), at);
     if (original || (layer == &edited && workspace.at_rest()))
       drawing.placement = Placement::at_rest;
     if (layer == &edited) {

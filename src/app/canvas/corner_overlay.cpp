@@ -6,10 +6,6 @@
 namespace holomorph {
 namespace {
 
-ImVec2 vec(Complex px) {
-  return {static_cast<float>(px.real()), static_cast<float>(px.imag())};
-}
-
 void draw_line(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color, float width,
                const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
@@ -44,7 +40,7 @@ void draw_corners(ImDrawList& list, const Workspace& workspace, const ToolOverla
   for (Index e = 0; e < deformation.rest.size(); ++e) {
     std::vector<ImVec2> line;
     for (const Complex& z : posed_segment(workspace, e))
-      line.push_back(vec(workspace.display.viewport.px_at_plane(z)));
+      line.push_back(vec(workspace.layer_view().px_at_plane(z)));
     const bool hovered =
         gesture.edge && corner_before(deformation, *gesture.edge) == corner_before(deformation, e);
     draw_line(list, line, hovered ? style.colors.hover : style.colors.pose, hovered ? 3 : 1.8f,
@@ -52,7 +48,7 @@ void draw_corners(ImDrawList& list, const Workspace& workspace, const ToolOverla
   }
   if (gesture.corner) draw_mark(list, *gesture.corner, style);
   for (Index v = 0; v < deformation.rest.size(); ++v) {
-    const ImVec2 at = vec(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v)));
+    const ImVec2 at = vec(workspace.layer_view().px_at_plane(posed_vertex(workspace, v)));
     const bool hovered = gesture.hover == Handle{Handle::Kind::cage, v, 0},
                chosen = workspace.selection.contains({Handle::Kind::cage, v, 0});
     const ImU32 color = chosen    ? style.colors.selected
@@ -74,7 +70,7 @@ void draw_limited_corners(ImDrawList& list, const Workspace& workspace, const Ov
   const float s = static_cast<float>(style.scale), r = 11 * s;
   for (const Index v : workspace.map().map().limited_corners) {
     if (v >= workspace.shown.deformation().rest.size()) continue;
-    const ImVec2 at = vec(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v)));
+    const ImVec2 at = vec(workspace.layer_view().px_at_plane(posed_vertex(workspace, v)));
     const ImVec2 a(at.x, at.y - r), b(at.x - 0.9f * r, at.y + 0.6f * r),
         c(at.x + 0.9f * r, at.y + 0.6f * r);
     list.AddTriangle(a, b, c, style.colors.outline, 4.5f * s);

@@ -13,16 +13,16 @@
 namespace holomorph {
 
 ImVec2 px(const Workspace& workspace, Complex z) {
-  const Complex at = workspace.display.viewport.px_at_plane(z);
-  return {static_cast<float>(at.real()), static_cast<float>(at.imag())};
+  return vec(workspace.layer_view().px_at_plane(z));
 }
 
 namespace {
 
 /// The points of a line in window px.
 std::vector<ImVec2> window_line(const Workspace& workspace, std::span<const Complex> points) {
+  const Viewport view = workspace.layer_view();
   std::vector<ImVec2> line;
-  for (const Complex& z : points) line.push_back(px(workspace, z));
+  for (const Complex& z : points) line.push_back(vec(view.px_at_plane(z)));
   return line;
 }
 
@@ -101,7 +101,7 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     const Pin& pin = workspace.shown.deformation().pins[*gesture.ring];
     if (const auto held = held_radius(workspace.shown.deformation(), *gesture.ring))
       draw_held_disk(
-          list, at, static_cast<float>(*held * pin.scale * workspace.display.viewport.zoom), style);
+          list, at, static_cast<float>(*held * pin.scale * workspace.layer_view().zoom), style);
     draw_ring(list, at, radius, pin, gesture.ring_hovered, style);
   }
 }
@@ -152,7 +152,7 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
     if (workspace.tools.drag.soft && (gesture.hover == handle || dragged.size() == 1)) {
       const ImVec2 at = px(workspace, position_of(deformation, handle, workspace.mode));
       const float r =
-          static_cast<float>(workspace.tools.drag.reach * workspace.display.viewport.zoom);
+          static_cast<float>(workspace.tools.drag.reach * workspace.layer_view().zoom);
       list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);
       list.AddCircle(at, r, style.colors.hover, 96, 1 * s);
     }
@@ -200,7 +200,7 @@ void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOver
   }
   if (!gesture.brush) return;
   const float radius =
-      static_cast<float>(workspace.tools.brush_radius * workspace.display.viewport.zoom);
+      static_cast<float>(workspace.tools.brush_radius * workspace.layer_view().zoom);
   list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.outline, 64, 3 * s);
   list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.hover, 64, 1.4f * s);
 }
@@ -245,12 +245,12 @@ struct CageLook {
 bool is_pointer_near_cage(const Workspace& workspace, bool anywhere) {
   const ImGuiIO& io = ImGui::GetIO();
   const Complex pointer(io.MousePos.x, io.MousePos.y);
-  if (io.WantCaptureMouse || !workspace.display.viewport.contains_px(pointer)) return false;
+  if (io.WantCaptureMouse || !workspace.layer_view().contains_px(pointer)) return false;
   constexpr double kNear = 3;  // in picking distances
   return anywhere || nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
-                                     workspace.display.viewport.plane_at_px(pointer))
+                                     workspace.layer_view().plane_at_px(pointer))
                                  .distance *
-                             workspace.display.viewport.zoom <
+                             workspace.layer_view().zoom <
                          kNear * workspace.display.handle_px;
 }
 
@@ -372,7 +372,7 @@ void draw_folds(ImDrawList& list, const Workspace& workspace, const OverlayStyle
                              (style.colors.fold & 0x00ffffff) | 0x70000000);
     }
     const float radius = std::clamp(
-        static_cast<float>(fold.radius * workspace.display.viewport.zoom) + 6 * s, 10 * s, 400 * s);
+        static_cast<float>(fold.radius * workspace.layer_view().zoom) + 6 * s, 10 * s, 400 * s);
     list.AddCircle(px(workspace, fold.at), radius, style.colors.outline, 0, 3.5f * s);
     list.AddCircle(px(workspace, fold.at), radius, style.colors.fold, 0, 1.5f * s);
   }
@@ -397,6 +397,32 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
   draw_gesture(list, workspace, gesture, style);
 }
 
+/// Draws what a layer can be attached to.
+void draw_targets(ImDrawList& list, const std::vector<TargetMark>& targets,
+                  const OverlayStyle& style) {
+  const float s = static_cast<float>(style.scale);
+  for (const TargetMark& target : targets) {
+    const ImVec2 at = vec(target.line[0]);
+    if (target.line.size() > 1) {
+      std::vector<ImVec2> line;
+      for (const Complex& px : target.line) line.push_back(vec(px));
+      draw_line(list, line, false, target.hovered ? style.colors.hover : style.colors.stroke,
+                style);
+    } else if (target.is_pin) {
+      draw_pin(list, at, Pin{}, false, target.hovered, style);
+    } else {
+      const float r = 9 * s;
+      for (const auto& [color, width] : {std::pair(style.colors.outline, 4 * s),
+                                         {style.colors.hover, 2 * s}}) {
+        list.AddCircle(at, r, color, 0, width);
+        for (const ImVec2 way : {ImVec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+          list.AddLine({at.x + r * way.x, at.y + r * way.y},
+                       {at.x + 1.7f * r * way.x, at.y + 1.7f * r * way.y}, color, width);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
@@ -405,12 +431,13 @@ void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
   if (!workspace.display.hide_overlays && !workspace.display.show_original &&
       workspace.document.scene().layer().visible) {
     // The overlay is drawn only in the "after" part, which shows the pose.
-    const Viewport& view = workspace.display.viewport;
+    const Viewport view = workspace.layer_view();
     const double from = view.left + workspace.display.split.value_or(0) * view.width;
     list.PushClipRect(
         {static_cast<float>(from), static_cast<float>(view.top)},
         {static_cast<float>(view.left + view.width), static_cast<float>(view.top + view.height)});
     draw_structure(list, workspace, gesture, style);
+    draw_targets(list, gesture.targets, style);
     list.PopClipRect();
   }
 }

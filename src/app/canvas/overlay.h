@@ -11,7 +11,10 @@ struct OverlayStyle {
   double scale = 1;  ///< the display's scale
 };
 
-/// The position of a point of the plane in the window.
+inline ImVec2 vec(Complex px) {
+  return {static_cast<float>(px.real()), static_cast<float>(px.imag())};
+}
+/// The position in the window of a point of the edited layer.
 ImVec2 px(const Workspace& workspace, Complex z);
 
 /// Draws the cage and pins of the current mode, and the tool's gesture, into ImGui's background.

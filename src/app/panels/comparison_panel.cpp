@@ -156,7 +156,7 @@ void ComparisonPanel::draw_map(const Workspace& workspace, const OverlayStyle& s
   const VectorXc& f = rows_[static_cast<size_t>(chosen_)].f;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const auto px = [&](int vertex) {
-    const Complex at = workspace.display.viewport.px_at_plane(f[vertex]);
+    const Complex at = workspace.layer_view().px_at_plane(f[vertex]);
     return ImVec2(static_cast<float>(at.real()), static_cast<float>(at.imag()));
   };
   const float width = static_cast<float>(style.scale);

@@ -25,7 +25,9 @@ std::string counted(size_t count, const std::string& what) {
 }
 
 /// What a row says about its layer, such as "Puppet, 10 pins".
-std::string summary_of(const Layer& layer) {
+std::string summary_of(const Scene& scene, size_t number) {
+  const Layer& layer = *scene.layers[number];
+  if (layer.attachment) return "Follows " + attachment_text(scene, number);
   const Deformation& deformation = layer.deformation;
   if (!deformation.has_cage()) return "Not bent";
   const Method& method = chosen_method(deformation);
@@ -81,7 +83,8 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
   const bool double_clicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
   ImGui::SetItemAllowOverlap();
   name_item("Layer: " + title_of_layer(scene, layer));
-  tooltip(edited ? "Double-click to rename." : "Click to edit this layer.");
+  if (ImGui::GetMousePos().x < at.x + width - 3 * small - px(8))
+    tooltip(edited ? "Double-click to rename." : "Click to edit this layer.");
   draw_focus_ring(px(6));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (edited || hovered)
@@ -94,7 +97,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
   draw_thumbnail(list, thumbnails.of_picture(workspace.document.pictures().shared(state)),
                  at + ImVec2(px(8), (height - side) / 2), side, px(4));
   ImGui::PopStyleVar();
-  const float left = px(8) + side + px(10), buttons = 2 * small + px(8);
+  const float left = px(8) + side + px(10), buttons = 3 * small + px(8);
   const float room = width - left - buttons;
   if (!renames) {
     const ImU32 ink = state.visible ? c.text : c.muted;
@@ -102,27 +105,38 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
               shortened_text(title_of_layer(scene, layer), room));
     const ScopedFont small_font(Type::caption);
     draw_text(list, Type::caption, at + ImVec2(left, px(26)), c.muted,
-              shortened_text(summary_of(state), room));
+              shortened_text(summary_of(scene, layer), room));
   }
   // The states that differ from the usual ones are always shown, the others on hover.
   const auto flag_button = [&](float x, const char* name, const char* icon, const char* tip,
-                               bool shows) {
+                               bool shows, bool on = false) {
     ImGui::SetCursorScreenPos(at + ImVec2(x, (height - small) / 2));
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * (shows ? 1.0f : 0.0f));
-    const bool pressed = icon_button(name, icon, tip, false, small, Type::caption);
+    const bool pressed = icon_button(name, icon, tip, on, small, Type::caption);
     ImGui::PopStyleVar();
     return pressed;
   };
-  const float lock = width - buttons, eye = width - small - px(4);
-  if (flag_button(lock, "lock", state.locked ? icon_named("lock") : icon_named("unlock"),
-                  state.locked ? "Locked. Click to unlock." : "Click to prevent edits.",
-                  state.locked || hovered || edited))
-    toggle_flag(&Layer::locked, state.locked ? "Unlock layer" : "Lock layer");
-  else if (flag_button(eye, "shown", state.visible ? icon_named("eye") : icon_named("eye-off"),
-                       state.visible ? "Visible. Click to hide." : "Hidden. Click to show.", true))
-    toggle_flag(&Layer::visible, state.visible ? "Hide layer" : "Show layer");
-  else if (clicked)
+  const float attach = width - buttons, lock = attach + small, eye = width - small - px(4);
+  const bool attached = state.attachment.has_value();
+  const char* attach_id = attached ? "layer.detach" : "layer.attach";
+  const std::string attach_tip =
+      attached ? "Follows " + attachment_text(scene, layer) + ". Click to detach."
+               : "Attach to another layer: click a pin, a stroke or a place of it.";
+  if (scene.layers.size() > 1 &&
+      flag_button(attach, "attach", icon_named("attach"), attach_tip.c_str(),
+                  attached || hovered || edited, attached)) {
     workspace.choose_layer(layer);
+    run(workspace.actions.named(attach_id), workspace);
+  } else if (flag_button(lock, "lock", state.locked ? icon_named("lock") : icon_named("unlock"),
+                  state.locked ? "Locked. Click to unlock." : "Click to prevent edits.",
+                  state.locked || hovered || edited)) {
+    toggle_flag(&Layer::locked, state.locked ? "Unlock layer" : "Lock layer");
+  } else if (flag_button(eye, "shown", state.visible ? icon_named("eye") : icon_named("eye-off"),
+                       state.visible ? "Visible. Click to hide." : "Hidden. Click to show.", true)) {
+    toggle_flag(&Layer::visible, state.visible ? "Hide layer" : "Show layer");
+  } else if (clicked) {
+    workspace.choose_layer(layer);
+  }
   if (double_clicked && workspace.document.scene().edited == layer)
     rename(workspace.document.scene());
   if (renames) {

@@ -363,6 +363,13 @@ Options options_of(Workspace& workspace) {
       add_angle_groups(groups, workspace);
       reset();
       break;
+    case ToolId::attach:
+      options = {icon_named("attach"), "Attach", {}};
+      groups.push_back({"what", [] { inline_label("Click what the layer should follow"); }});
+      groups.push_back({"cancel", [&workspace] {
+                          action_option("tool.select", "Cancel", workspace);
+                        }});
+      break;
     case ToolId::select:
       options = {icon_named("select"), "Select", {}};
       if (!selected_pins(workspace).empty()) {

@@ -23,7 +23,7 @@ constexpr double kDegree = kPi / 180;
 template <class Position, class MovedTo>
 void position_row(Workspace& workspace, Position position, MovedTo moved_to) {
   const Complex z = position(workspace.shown.deformation());
-  const double zoom = workspace.display.viewport.zoom;
+  const double zoom = workspace.layer_view().zoom;
   Number number{.unit = "px", .decimals = 0, .speed = 1 / zoom};
   if (std::abs(z.real()) < 10 || std::abs(z.imag()) < 10) number.decimals = 1;
   row_label("Position");
@@ -69,7 +69,7 @@ void pin_gap(const Workspace& workspace, Index pin) {
   const auto reached = workspace.map().pin_image(deformation, static_cast<size_t>(pin));
   if (!reached) return;
   const double gap = std::abs(*reached - deformation.pins[pin].pose);
-  if (gap * workspace.display.viewport.zoom <= 1) return;
+  if (gap * workspace.layer_view().zoom <= 1) return;
   char text[80];
   std::snprintf(text, sizeof text,
                 gap < 10 ? "The picture stops %.1f px short." : "The picture stops %.0f px short.",

@@ -128,7 +128,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, const Panel
   if (map.error()) {
     draw_left(c.error, std::string(icon_named("warning")) + " " + map.error()->what());
     if (const auto where = map.error()->where(); where && button("Show me"))
-      workspace.display.viewport.center = *where;
+      workspace.center_on(*where);
     const Deformation& deformation = workspace.shown.deformation();
     if (!deformation.rest.holes.empty() && !method_named(deformation.method).allows_holes &&
         button("Fill holes"))

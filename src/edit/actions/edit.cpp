@@ -19,7 +19,8 @@ bool chosen(const Workspace& w) {
 /// Moves the selection by (dx, dy) times `tenths` tenths of a pixel of the picture.
 template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
-  const Complex by(dx * tenths / 10.0, dy * tenths / 10.0);
+  // Up is up on the canvas, also in a layer that another one has rotated.
+  const Complex by = std::conj(w.layer_view().turn) * Complex(dx * tenths / 10.0, dy * tenths / 10.0);
   w.commit_or_amend("Nudge", displaced(w.shown.deformation(),
                                        displacements(w.shown.deformation(), w.selection, by, w.mode,
                                                      w.tools.drag),

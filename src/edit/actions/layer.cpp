@@ -26,6 +26,26 @@ void move(Workspace& w) {
                   with_layer_moved(w.document.scene(), neighbor(w, by)));
 }
 
+bool can_attach(const Workspace& w) {
+  const Scene& scene = w.document.scene();
+  for (size_t i = 0; i < scene.layers.size(); ++i)
+    if (!follows(scene, i, scene.edited)) return true;
+  return false;
+}
+bool is_attached(const Workspace& w) {
+  return w.document.scene().layer().attachment.has_value();
+}
+void attach_layer(Workspace& w) {
+  if (!w.require_open_layer()) return;
+  w.mode = EditMode::pose;
+  w.tools.active = ToolId::attach;
+}
+void detach_layer(Workspace& w) {
+  if (!w.require_open_layer()) return;
+  const Scene& scene = w.document.scene();
+  w.commit_layers("Detach layer", detached(scene, scene.edited, w.placement(scene.edited)));
+}
+
 void show_layer(Workspace& w) {
   Layer layer = w.document.scene().layer();
   layer.visible = !layer.visible;
@@ -101,6 +121,21 @@ std::vector<Action> layer_actions() {
                 }
                 w.commit_layers("Delete layer", without_layer(w.document.scene()));
               },
+      },
+      {
+          .id = "layer.attach",
+          .label = "Attach to...",
+          .hint = "The layer then follows a pin, a stroke or a place of another layer",
+          .icon = icon_named("attach"),
+          .enabled = can_attach,
+          .run = attach_layer,
+      },
+      {
+          .id = "layer.detach",
+          .label = "Detach layer",
+          .hint = "The layer stays where it is and no longer follows the other one",
+          .enabled = is_attached,
+          .run = detach_layer,
       },
       {
           .id = "layer.above",

@@ -59,6 +59,8 @@ const std::vector<MenuItem>& menus() {
         {"Order", {{"layer.above"}, {"layer.below"}, separator, {"layer.up"}, {"layer.down"}}},
         {"layer.visible"},
         {"layer.lock"},
+        {"layer.attach"},
+        {"layer.detach"},
         separator,
         {"Background",
          {{"background.transparent"}, {"background.color"}, {"background.original"}}}}},

@@ -33,11 +33,14 @@ Complex displayed_position(const Workspace& w, const Handle& handle) {
 
 void frame_selection(Workspace& w) {
   Box box;
+  const Similarity placed =
+      w.at_rest() ? Similarity{} : w.placement(w.document.scene().edited);
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::stroke)
-      for (const Complex& z : curve_of(w.shown.deformation(), handle.index, w.mode)) box.include(z);
+      for (const Complex& z : curve_of(w.shown.deformation(), handle.index, w.mode))
+        box.include(placed(z));
     else
-      box.include(displayed_position(w, handle));
+      box.include(placed(displayed_position(w, handle)));
   const double least = 60;  // also shows the surroundings of a single point
   if (!box.empty()) {
     const Complex center = box.center();

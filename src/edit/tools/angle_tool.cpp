@@ -160,7 +160,7 @@ class AngleTool final : public Tool {
     marquee_.reset();
     if (!input.mods.shift) workspace.selection.clear();
     for (Index v = 0; v < workspace.shown.deformation().pose.size(); ++v)
-      if (box.contains(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v))))
+      if (box.contains(workspace.layer_view().px_at_plane(posed_vertex(workspace, v))))
         workspace.selection.insert({Handle::Kind::cage, v, 0});
   }
 

@@ -58,21 +58,25 @@ Deformation with_box(Deformation deformation, const Image& picture) {
   return with_method_for(with_cage(std::move(deformation), corners), MethodUse::cage);
 }
 
-std::optional<size_t> layer_at(const Workspace& w, Complex z) {
+bool shows_at(const Workspace& w, size_t number, Complex px) {
   const Scene& scene = w.document.scene();
-  for (size_t i = scene.layers.size(); i-- > 0;) {
-    const Layer& layer = *scene.layers[i];
-    const Image* picture = w.document.pictures().of(layer);
-    if (!layer.visible || !picture) continue;
-    const Deformation& deformation = i == scene.edited ? w.shown.deformation() : layer.deformation;
-    if (shows(w.maps.of(layer.id), deformation, *picture, z)) return i;
-  }
+  const Layer& layer = *scene.layers[number];
+  const Image* picture = w.document.pictures().of(layer);
+  if (!layer.visible || !picture) return false;
+  const Deformation& deformation =
+      number == scene.edited ? w.shown.deformation() : layer.deformation;
+  return shows(w.maps.of(layer.id), deformation, *picture, w.layer_view(number).plane_at_px(px));
+}
+
+std::optional<size_t> layer_at(const Workspace& w, Complex px) {
+  for (size_t i = w.document.scene().layers.size(); i-- > 0;)
+    if (shows_at(w, i, px)) return i;
   return {};
 }
 
 bool LayerDrag::start(const Input& input, Workspace& w) {
   if (w.mode == EditMode::rest || w.display.view != View::image) return false;
-  const std::optional<size_t> number = layer_at(w, input.position);
+  const std::optional<size_t> number = layer_at(w, input.px);
   if (!number) return false;
   w.choose_layer(*number);
   const Layer& layer = w.document.scene().layer();
@@ -84,7 +88,7 @@ bool LayerDrag::start(const Input& input, Workspace& w) {
   shown_ = caged(w.shown.deformation());
   own_ = caged(w.shown.own());
   start_px_ = input.px;
-  start_ = input.position;
+  start_ = w.layer_view().plane_at_px(input.px);  // in the plane of the chosen layer
   active_ = true;
   moving_ = false;
   return true;

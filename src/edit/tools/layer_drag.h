@@ -11,9 +11,11 @@ Deformation moved_as_whole(Deformation deformation, Complex by);
 /// A cage around the whole picture, for moving, scaling and rotating it.
 Deformation with_box(Deformation deformation, const Image& picture);
 
-/// The topmost layer with a visible pixel at a displayed position, as the canvas shows it; none if
+/// The topmost layer that shows a visible pixel at a position of the canvas, in window px; none if
 /// there is none. Hidden layers do not count.
-std::optional<size_t> layer_at(const Workspace& workspace, Complex z);
+std::optional<size_t> layer_at(const Workspace& workspace, Complex px);
+/// Whether a layer shows a visible pixel at a position of the canvas, in window px.
+bool shows_at(const Workspace& workspace, size_t layer, Complex px);
 
 class LayerDrag {
  public:

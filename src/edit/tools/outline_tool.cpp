@@ -20,7 +20,7 @@ class OutlineTool final : public Tool {
 
   void input(const Input& input, Workspace& workspace) override {
     if (path_.active()) {
-      if (path_.follow(input, workspace.display.viewport, workspace.display.handle_px))
+      if (path_.follow(input, workspace.layer_view(), workspace.display.handle_px))
         close(workspace);
       return;
     }
@@ -86,7 +86,7 @@ class OutlineTool final : public Tool {
     const Points& outline = workspace.shown.deformation().outline;
     if (!workspace.shows_outline()) return false;
     const double distance = nearest_on_polygon(outline, input.position).distance;
-    return distance * workspace.display.viewport.zoom <= workspace.display.handle_px;
+    return distance * workspace.layer_view().zoom <= workspace.display.handle_px;
   }
 
   /// Ends a freehand drawing. If the line stays within the drag threshold, it counts as a click,
@@ -94,13 +94,13 @@ class OutlineTool final : public Tool {
   void finish(const Input& input, Workspace& workspace) {
     const Complex first = drawing_.line().front();
     const bool clicked = std::ranges::all_of(drawing_.line(), [&](Complex z) {
-      return std::abs(z - first) * workspace.display.viewport.zoom < kDragThresholdPx;
+      return std::abs(z - first) * workspace.layer_view().zoom < kDragThresholdPx;
     });
     Points outline =
-        drawing_.finish(true, kOutlineStepPx, kOutlineShortestPx, workspace.display.viewport);
+        drawing_.finish(true, kOutlineStepPx, kOutlineShortestPx, workspace.layer_view());
     if (clicked) {
       path_.set_point(first);
-      path_.follow(input, workspace.display.viewport, workspace.display.handle_px);
+      path_.follow(input, workspace.layer_view(), workspace.display.handle_px);
     } else if (outline.empty()) {
       workspace.messages.say(
           "Hold the button down and draw all around the shape, or click its points.");

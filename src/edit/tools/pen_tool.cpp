@@ -17,7 +17,7 @@ class PenTool final : public HandleTool {
   void input(const Input& input, Workspace& workspace) override {
     if (follow(input, workspace)) return;
     if (path_.active()) {
-      if (path_.follow(input, workspace.display.viewport, workspace.display.handle_px))
+      if (path_.follow(input, workspace.layer_view(), workspace.display.handle_px))
         close(workspace);
       return;
     }

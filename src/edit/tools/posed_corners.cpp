@@ -55,7 +55,7 @@ Points posed_segment(const Workspace& workspace, Index segment) {
 }
 
 CornerMark corner_mark(const Workspace& workspace, Index vertex) {
-  const Viewport& viewport = workspace.display.viewport;
+  const Viewport viewport = workspace.layer_view();
   CornerMark mark{vertex, viewport.px_at_plane(posed_vertex(workspace, vertex))};
   mark.radius = kRing * workspace.display.handle_px;
   const double arm = kArm * workspace.display.handle_px;
@@ -90,7 +90,7 @@ std::optional<Index> posed_vertex_at(const Workspace& workspace, Complex px) {
   double distance = workspace.display.handle_px;
   for (Index v = 0; v < workspace.shown.deformation().pose.size(); ++v) {
     const double here =
-        std::abs(workspace.display.viewport.px_at_plane(posed_vertex(workspace, v)) - px);
+        std::abs(workspace.layer_view().px_at_plane(posed_vertex(workspace, v)) - px);
     if (here >= distance) continue;
     best = v;
     distance = here;
@@ -100,8 +100,8 @@ std::optional<Index> posed_vertex_at(const Workspace& workspace, Complex px) {
 
 std::optional<Index> posed_segment_at(const Workspace& workspace, Complex px) {
   std::optional<Index> best;
-  double distance = 0.8 * workspace.display.handle_px / workspace.display.viewport.zoom;
-  const Complex z = workspace.display.viewport.plane_at_px(px);
+  double distance = 0.8 * workspace.display.handle_px / workspace.layer_view().zoom;
+  const Complex z = workspace.layer_view().plane_at_px(px);
   for (Index s = 0; s < workspace.shown.deformation().pose.size(); ++s) {
     const Points line = posed_segment(workspace, s);
     for (size_t i = 0; i + 1 < line.size(); ++i) {

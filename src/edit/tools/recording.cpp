@@ -164,7 +164,7 @@ void Recording::finish(Workspace& workspace) {
   const auto at_frame = [&](double time) { return time_of_frame(scene, frame_at(scene, time)); };
   const double end = samples_.back().time;
   if (at_frame(end) <= start_time_) return cancel(workspace);
-  double tolerance = kTolerancePx / workspace.display.viewport.zoom;
+  double tolerance = kTolerancePx / workspace.layer_view().zoom;
   std::vector<double> times = keyframe_times(tolerance);
   while (times.size() + before.keyframes.size() > kMaxKeyframes && times.size() > 2)
     times = keyframe_times(tolerance *= 2);

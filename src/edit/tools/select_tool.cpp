@@ -96,7 +96,7 @@ class SelectTool final : public HandleTool {
     if (!dragged) return;
     const Deformation& deformation = workspace.shown.deformation();
     for (const Handle& handle : handles_of(deformation, workspace.mode))
-      if (box.contains(workspace.display.viewport.px_at_plane(
+      if (box.contains(workspace.layer_view().px_at_plane(
               position_of(deformation, handle, workspace.mode))))
         workspace.selection.insert(handle);
   }

@@ -90,7 +90,7 @@ class StrokeTool final : public HandleTool {
 
   void finish(Workspace& workspace) {
     const Points drawn =
-        drawing_.finish(false, kStrokeStepPx, kStrokeShortestPx, workspace.display.viewport);
+        drawing_.finish(false, kStrokeStepPx, kStrokeShortestPx, workspace.layer_view());
     const auto redrawn_stroke = std::exchange(redrawn_, std::nullopt);
     if (drawn.empty()) {
       workspace.selection.clear();  // a click rather than a stroke
@@ -129,7 +129,7 @@ class StrokeTool final : public HandleTool {
     if (hover_->kind != Handle::Kind::stroke) return false;
     const Points& curve = curve_of(workspace.shown.deformation(), hover_->index, workspace.mode);
     const auto off = [&](Complex z) {
-      return std::abs(workspace.display.viewport.px_at_plane(z) - input.px);
+      return std::abs(workspace.layer_view().px_at_plane(z) - input.px);
     };
     const auto nearest = std::ranges::min_element(curve, {}, off);
     const size_t point = static_cast<size_t>(nearest - curve.begin());

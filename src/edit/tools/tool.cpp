@@ -42,7 +42,7 @@ Deformation HandleDrag::dragged(const Input& input, Workspace& workspace) {
   guides_.clear();
   if (workspace.tools.snaps) {
     constexpr double kReach = 0.7;  // in multiples of the picking distance
-    Snapping snapping{kReach * workspace.display.handle_px / workspace.display.viewport.zoom, {}};
+    Snapping snapping{kReach * workspace.display.handle_px / workspace.layer_view().zoom, {}};
     if (const Image* image = workspace.document.image())
       snapping.picture =
           Box{0, 0, static_cast<double>(image->width), static_cast<double>(image->height)};
@@ -89,7 +89,7 @@ bool erase_with_alt(const Input& input, Handle handle, Workspace& workspace) {
 namespace {
 
 Complex center_px(const Workspace& workspace, Index pin) {
-  return workspace.display.viewport.px_at_plane(workspace.shown.deformation().pins[pin].pose);
+  return workspace.layer_view().px_at_plane(workspace.shown.deformation().pins[pin].pose);
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ void PinRing::hover(const Input& input, const Workspace& workspace) {
   const auto held = held_radius(deformation, *pin_);
   resizes_ = held && input.mods.ctrl;
   if (resizes_ &&
-      near_circle(*held * deformation.pins[*pin_].scale * workspace.display.viewport.zoom))
+      near_circle(*held * deformation.pins[*pin_].scale * workspace.layer_view().zoom))
     hovered_ = true;
 }
 
@@ -145,7 +145,7 @@ Deformation PinRing::rotated(const Input& input, const Workspace& workspace) con
 
 Deformation PinRing::resized(const Input& input, const Workspace& workspace) const {
   const double px_per_radius =
-      workspace.display.viewport.zoom * start_deformation_.pins[*pin_].scale;
+      workspace.layer_view().zoom * start_deformation_.pins[*pin_].scale;
   const double by = (distance_to(input, workspace) - start_distance_) / px_per_radius;
   return with_held_radius(start_deformation_, *pin_, *held_radius(start_deformation_, *pin_) + by);
 }

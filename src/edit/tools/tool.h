@@ -12,6 +12,12 @@
 
 namespace holomorph {
 
+/// Something that a layer can be attached to: a pin or a place as one point, or a stroke.
+struct TargetMark {
+  Points line;  ///< in window px
+  bool is_pin = false, hovered = false;
+};
+
 /// What a tool draws in addition to the deformation.
 struct ToolOverlay {
   Points line;                      ///< the line being drawn, as a polyline in the plane
@@ -31,6 +37,7 @@ struct ToolOverlay {
   bool shows_dabs = false;  ///< draw stiffness: `dabs` if set, otherwise that of the deformation
   std::optional<std::vector<BrushDab>> dabs;
   std::optional<Complex> brush;  ///< the position of the brush
+  std::vector<TargetMark> targets;
 };
 
 inline constexpr double kDragThresholdPx = 3;
@@ -79,6 +86,7 @@ std::unique_ptr<Tool> stroke_tool();
 std::unique_ptr<Tool> outline_tool();
 std::unique_ptr<Tool> angle_tool();
 std::unique_ptr<Tool> brush_tool();
+std::unique_ptr<Tool> attach_tool();
 
 /// A drag of handles with the pointer: threshold, axis constraint, preview and one commit. With
 /// Ctrl, a drag in pose mode is recorded as motion, and a click toggles a vertex between smooth and

@@ -85,7 +85,7 @@ Deformation transformed(Deformation deformation, const Selection& selection, con
 }
 
 BoxMark TransformBox::mark_of(const Workspace& workspace, const Affine& map) const {
-  const auto px = [&](Complex z) { return workspace.display.viewport.px_at_plane(map(z)); };
+  const auto px = [&](Complex z) { return workspace.layer_view().px_at_plane(map(z)); };
   const Complex top(box_.center().real(), box_.top);
   return {{px({box_.left, box_.bottom}), px({box_.right, box_.bottom}), px({box_.right, box_.top}),
            px({box_.left, box_.top})},
@@ -99,7 +99,7 @@ void TransformBox::hover(const Input& input, const Workspace& workspace) {
   if (workspace.selection.size() < 2 || !workspace.display.show_cage ||
       workspace.display.hide_overlays)
     return;
-  const double unit = workspace.display.handle_px / workspace.display.viewport.zoom;
+  const double unit = workspace.display.handle_px / workspace.layer_view().zoom;
   content_ = box_around(workspace.shown.deformation(), workspace.selection, workspace.mode);
   const double margin = kMargin * unit;
   box_ = {content_.left - margin, content_.bottom - margin, content_.right + margin,

@@ -60,7 +60,8 @@ Pin read_pin(const Reader& reader) {
   if (reader.has("radius")) pin.radius = reader["radius"].within(kMinPinRadius, kMaxPinRadius);
   if (reader.has("depth")) pin.depth = reader["depth"].whole(-kMaxDepth, kMaxDepth);
   if (reader.has("turn")) pin.turn = reader["turn"].within(-kMaxPinTurn, kMaxPinTurn);
-  pin.extra = reader.others({"rest", "pose", "angle", "scale", "radius", "depth", "turn"});
+  if (reader.has("id")) pin.id = reader["id"].whole(1, kMaxId);
+  pin.extra = reader.others({"rest", "pose", "angle", "scale", "radius", "depth", "turn", "id"});
   return pin;
 }
 
@@ -131,7 +132,8 @@ Stroke read_stroke(const Reader& reader) {
   Stroke stroke;
   stroke.rest = read_curve(reader["rest"], check_stroke);
   stroke.pose = reader.has("pose") ? read_curve(reader["pose"], check_stroke) : stroke.rest;
-  stroke.extra = reader.others({"rest", "pose"});
+  if (reader.has("id")) stroke.id = reader["id"].whole(1, kMaxId);
+  stroke.extra = reader.others({"rest", "pose", "id"});
   return stroke;
 }
 
@@ -169,6 +171,7 @@ Json pin_json(const Pin& pin) {
   if (pin.radius) item["radius"] = *pin.radius;
   if (pin.depth != 0) item["depth"] = pin.depth;
   if (pin.turn) item["turn"] = *pin.turn;
+  if (pin.id > 0) item["id"] = pin.id;
   add_extra(item, pin.extra);
   return item;
 }
@@ -177,6 +180,7 @@ Json stroke_json(const Stroke& stroke) {
   Json item;
   item["rest"] = curve_json(stroke.rest);
   item["pose"] = curve_json(stroke.pose);
+  if (stroke.id > 0) item["id"] = stroke.id;
   add_extra(item, stroke.extra);
   return item;
 }

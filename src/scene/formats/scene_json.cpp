@@ -3,8 +3,10 @@
 #include "scene/formats/scene_json.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/error.h"
+#include "scene/attachments.h"
 #include "scene/budget.h"
 #include "scene/formats/deformation_json.h"
 #include "scene/formats/pose_json.h"
@@ -116,16 +118,56 @@ Blending read_blending(const Reader& reader) {
   reader.fail("'" + name + "' is not a blending mode; choose one of: " + known);
 }
 
+Attachment read_attachment(const Reader& reader) {
+  reader.object();
+  Attachment attachment;
+  attachment.layer = reader["layer"].whole(1, kMaxId);
+  if (reader.has("pin")) {
+    attachment.to = Attachment::To::pin;
+    attachment.handle = reader["pin"].whole(1, kMaxId);
+  } else if (reader.has("stroke")) {
+    attachment.to = Attachment::To::stroke;
+    attachment.handle = reader["stroke"].whole(1, kMaxId);
+  } else {
+    attachment.place = reader["place"].point();
+  }
+  return attachment;
+}
+
+Similarity read_placement(const Reader& reader) {
+  reader.object();
+  const Similarity placement{reader["factor"].point(), 0, reader["shift"].point()};
+  const double scale = std::abs(placement.factor);
+  if (!(scale >= kMinPlacementScale && scale <= kMaxPlacementScale))
+    reader["factor"].fail("its absolute value must be from 1e-6 to 1e6");
+  return placement;
+}
+
+/// The ids of the layers: those in the file, and numbers that are still free for the others.
+void set_ids(const Reader& list, std::vector<Layer>& layers) {
+  std::set<int> used;
+  for (size_t i = 0; i < layers.size(); ++i) {
+    if (!list[i].has("id")) continue;
+    layers[i].id = list[i]["id"].whole(1, kMaxId);
+    if (!used.insert(layers[i].id).second) list[i]["id"].fail("another layer has the same id");
+  }
+  for (size_t i = 0; i < layers.size(); ++i) {
+    if (list[i].has("id")) continue;
+    layers[i].id = static_cast<int>(i) + 1;
+    while (!used.insert(layers[i].id).second) ++layers[i].id;
+  }
+  reserve_layer_ids(*used.rbegin());
+}
+
 void read_layers(const Reader& reader, Scene& scene) {
   scene.extra = reader.others({"format", "version", "layers", "edited", "animation", "background"});
   const Reader list = reader["layers"].array();
   if (list.size() < 1 || list.size() > kMaxLayers)
     list.fail("expected 1 to " + std::to_string(kMaxLayers) + " layers");
-  scene.layers.clear();
+  std::vector<Layer> layers;
   for (size_t i = 0; i < list.size(); ++i) {
     const Reader item = list[i].object();
     Layer layer = read_layer(item);
-    layer.id = static_cast<int>(i) + 1;
     if (item.has("name")) layer.name = item["name"].text();
     if (item.has("visible")) layer.visible = item["visible"].truth();
     if (item.has("locked")) layer.locked = item["locked"].truth();
@@ -135,8 +177,19 @@ void read_layers(const Reader& reader, Scene& scene) {
         item["opacity"].fail("expected a number from 0 to 1");
     }
     if (item.has("blending")) layer.blending = read_blending(item["blending"]);
-    layer.extra = item.others({"name", "visible", "locked", "opacity", "blending"}, kLayerKeys);
-    scene.layers.emplace_back(std::move(layer));
+    if (item.has("attachment")) layer.attachment = read_attachment(item["attachment"]);
+    if (item.has("placement")) layer.placement = read_placement(item["placement"]);
+    layer.extra = item.others({"name", "visible", "locked", "opacity", "blending", "id",
+                               "attachment", "placement"},
+                              kLayerKeys);
+    layers.push_back(std::move(layer));
+  }
+  set_ids(list, layers);
+  scene.layers = shared(std::move(layers));
+  try {
+    check_attachments(scene);
+  } catch (const Error& error) {
+    list.fail(error.what());
   }
   const int last = static_cast<int>(list.size()) - 1;
   scene.edited = static_cast<size_t>(reader.has("edited") ? reader["edited"].whole(0, last) : last);
@@ -209,6 +262,24 @@ void write_shared(const Scene& scene, Json& document) {
   }
 }
 
+Json attachment_json(const Attachment& attachment) {
+  Json item;
+  item["layer"] = attachment.layer;
+  if (attachment.to == Attachment::To::pin)
+    item["pin"] = attachment.handle;
+  else if (attachment.to == Attachment::To::stroke)
+    item["stroke"] = attachment.handle;
+  else
+    item["place"] = point_json(attachment.place);
+  return item;
+}
+
+bool is_parent(const Scene& scene, const Layer& layer) {
+  return std::ranges::any_of(scene.layers, [&](const SharedLayer& other) {
+    return other->attachment && other->attachment->layer == layer.id;
+  });
+}
+
 Json layers_json(const Scene& scene) {
   Json layers = Json::array();
   for (const SharedLayer& shared : scene.layers) {
@@ -220,6 +291,12 @@ Json layers_json(const Scene& scene) {
     if (layer.opacity < 1) item["opacity"] = layer.opacity;
     if (layer.blending != Blending::normal)
       item["blending"] = kBlendingNames[static_cast<size_t>(layer.blending)];
+    if (is_parent(scene, layer)) item["id"] = layer.id;
+    if (layer.attachment) item["attachment"] = attachment_json(*layer.attachment);
+    if (!is_identity(layer.placement)) {
+      item["placement"]["factor"] = point_json(layer.placement.factor);
+      item["placement"]["shift"] = point_json(layer.placement(0));
+    }
     write_layer(layer, item);
     add_extra(item, layer.extra);
     layers.push_back(std::move(item));
