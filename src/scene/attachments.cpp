@@ -76,6 +76,12 @@ bool follows(const Scene& scene, size_t layer, size_t other) {
   return false;
 }
 
+bool may_follow_any(const Scene& scene, size_t layer) {
+  for (size_t i = 0; i < scene.layers.size(); ++i)
+    if (!follows(scene, i, layer)) return true;
+  return false;
+}
+
 bool carries_visible(const Scene& scene, size_t layer) {
   for (size_t i = 0; i < scene.layers.size(); ++i)
     if (i != layer && scene.layers[i]->visible && follows(scene, i, layer)) return true;

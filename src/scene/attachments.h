@@ -14,6 +14,8 @@ std::optional<size_t> parent_of(const Scene& scene, const Layer& layer);
 /// Whether a layer follows another one, directly or through other layers. Layers also follow
 /// themselves.
 bool follows(const Scene& scene, size_t layer, size_t other);
+/// Whether there is a layer that another one may follow.
+bool may_follow_any(const Scene& scene, size_t layer);
 /// Whether any layer that is drawn follows the layer with this index.
 bool carries_visible(const Scene& scene, size_t layer);
 /// Throws Error if a layer is attached to something that does not exist, or to itself through

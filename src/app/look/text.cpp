@@ -99,6 +99,13 @@ void draw_text(ImDrawList& list, Type type, ImVec2 at, ImU32 color, const std::s
                text.c_str());
 }
 
+void draw_wrapped_text(ImDrawList& list, Type type, ImVec2 at, ImU32 color, const std::string& text,
+                       float width) {
+  const ImFont* face = font(type);
+  list.AddText(face, face->FontSize, {std::round(at.x), std::round(at.y)}, faded(color),
+               text.c_str(), nullptr, width);
+}
+
 void draw_centered_text(ImDrawList& list, Type type, ImVec2 from, ImVec2 to, ImU32 color,
                         const std::string& text) {
   const ImVec2 size = text_size(type, text);

@@ -27,6 +27,9 @@ std::string shortened_text(const std::string& text, float width);
 ImVec2 text_size(Type type, const std::string& text);
 /// Draws text with its top left corner at a position, without using up space in the window.
 void draw_text(ImDrawList& list, Type type, ImVec2 at, ImU32 color, const std::string& text);
+/// Draws text in lines that are at most `width` wide.
+void draw_wrapped_text(ImDrawList& list, Type type, ImVec2 at, ImU32 color, const std::string& text,
+                       float width);
 /// Draws text in the middle of a box.
 void draw_centered_text(ImDrawList& list, Type type, ImVec2 from, ImVec2 to, ImU32 color,
                         const std::string& text);

@@ -47,6 +47,15 @@ constexpr Choice kChoices[] = {
     {"place", "Place", "Move, scale and rotate.",
      [](Workspace& workspace) { run("cage.box", workspace); }}};
 
+/// The height of the texts of the choices on cards of a width.
+float caption_height(float width) {
+  const ScopedFont small(Type::caption);
+  float height = 0;
+  for (const Choice& choice : kChoices)
+    height = std::max(height, ImGui::CalcTextSize(choice.text, nullptr, false, width - px(20)).y);
+  return height;
+}
+
 bool choice_card(const Choice& choice, bool chosen, ImVec2 size) {
   const ThemeColors& c = theme_colors();
   const bool clicked = ImGui::InvisibleButton(choice.label, size);
@@ -56,15 +65,13 @@ bool choice_card(const Choice& choice, bool chosen, ImVec2 size) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(from, to, faded(surface), px(8));
   list.AddRect(from, to, faded(chosen ? c.accent : c.line), px(8), 0, chosen ? px(2) : 1);
-  const float words = px(52), tall = size.y - words;
+  const float words = px(35) + caption_height(size.x), tall = size.y - words;
   draw_method_picture(list, choice.picture, {(from.x + to.x) / 2, from.y + tall / 2 + px(4)},
                       std::min(1.35f, (tall - px(16)) / px(54)), chosen ? c.text : c.control,
                       surface);
   const float x = from.x + px(12), room = size.x - px(20);
   draw_text(list, Type::strong, {x, to.y - words + px(4)}, c.text, choice.label);
-  const ScopedFont small(Type::caption);
-  draw_text(list, Type::caption, {x, to.y - words + px(25)}, c.muted,
-            shortened_text(choice.text, room));
+  draw_wrapped_text(list, Type::caption, {x, to.y - words + px(25)}, c.muted, choice.text, room);
   draw_focus_ring(px(8));
   name_item(std::string("Start: ") + choice.label);
   return clicked;
@@ -89,7 +96,7 @@ bool StartCard::has_room(const Workspace& workspace) {
 
 void StartCard::draw_choices(Workspace& workspace, float width) {
   const float gap = px(8), each = std::floor((width - gap) / 2),
-              tall = std::min(px(172), std::floor(each * 1.05f));
+              tall = std::floor(std::min(px(120), each * 0.7f) + px(35) + caption_height(each));
   const std::string& method = workspace.shown.own().method;
   for (size_t i = 0; i < std::size(kChoices); ++i) {
     const Choice& choice = kChoices[i];

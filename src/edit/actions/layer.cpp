@@ -27,10 +27,7 @@ void move(Workspace& w) {
 }
 
 bool can_attach(const Workspace& w) {
-  const Scene& scene = w.document.scene();
-  for (size_t i = 0; i < scene.layers.size(); ++i)
-    if (!follows(scene, i, scene.edited)) return true;
-  return false;
+  return may_follow_any(w.document.scene(), w.document.scene().edited);
 }
 bool is_attached(const Workspace& w) {
   return w.document.scene().layer().attachment.has_value();
