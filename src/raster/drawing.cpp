@@ -84,7 +84,12 @@ class Drawing {
         scale_(job.pixels_per_unit),
         is_placed_(!is_identity(job.placement)),
         output_(width, height) {
-    if (job.source && job.view == View::image && job.surroundings) add_surroundings();
+    if (job.source && job.view == View::image && job.surroundings) {
+      if (job.fringe)
+        add_triangles(*job.fringe, job.fringe_positions);
+      else
+        add_surroundings();
+    }
     if (job.mesh) add_mesh();
     bin();
   }
@@ -167,8 +172,7 @@ class Drawing {
     });
   }
 
-  void add_mesh() {
-    const Mesh& mesh = *job_.mesh;
+  void add_triangles(const Mesh& mesh, std::span<const Complex> at) {
     const double height = job_.source ? job_.source->height : 0;
     const bool heat = is_heat(job_.view);
     for (const Triangle& t : mesh.triangles) {
@@ -177,8 +181,12 @@ class Drawing {
         u[k] = heat ? heat_position(job_.scale, job_.heat[t[k]]) : mesh.vertices[t[k]].real();
         v[k] = heat ? 0 : height - mesh.vertices[t[k]].imag();
       }
-      add_piece({job_.positions[t[0]], job_.positions[t[1]], job_.positions[t[2]]}, u, v, false);
+      add_piece({at[t[0]], at[t[1]], at[t[2]]}, u, v, false);
     }
+  }
+
+  void add_mesh() {
+    add_triangles(*job_.mesh, job_.positions);
     for_each_boundary_edge([&](size_t a, size_t b) {
       silhouette_.push_back(edge_of(job_.positions[a], job_.positions[b]));
     });

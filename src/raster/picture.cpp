@@ -8,6 +8,7 @@
 #include "raster/compose.h"
 #include "raster/motion_box.h"
 #include "scene/attachments.h"
+#include "scene/fringe.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
 #include "scene/motion.h"
@@ -51,6 +52,12 @@ class PictureMaker::LayerMaker {
     if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, depths_of(deformation_));
     job.mesh = drawn_.get();
     job.positions = as_span(map.f);
+    Points around;
+    if (const Fringe* fringe = this->fringe()) {
+      around = fringe->positions(as_span(map.f));
+      job.fringe = &fringe->mesh;
+      job.fringe_positions = around;
+    }
     return rasterized(job);
   }
 
@@ -85,6 +92,12 @@ class PictureMaker::LayerMaker {
   /// mesh, and the corners of the picture if it moves as a whole.
   VectorXc extent_at(double time, bool with_picture) {
     VectorXc points = deformation_.has_cage() ? map_at(time, false).f : VectorXc();
+    if (const Fringe* fringe = this->fringe()) {
+      const Points around = fringe->positions(as_span(points));
+      const Index count = points.size();
+      points.conservativeResize(count + static_cast<Index>(around.size()));
+      std::ranges::copy(around, points.begin() + count);
+    }
     if (!with_picture || !source_) return points;
     const double w = source_->width, h = source_->height;
     const Index count = points.size();
@@ -120,12 +133,20 @@ class PictureMaker::LayerMaker {
     return motion_.sampled_at(*time, derivatives);
   }
 
+  /// The fringe of the picture; null if it has none. The map must have been prepared.
+  const Fringe* fringe() {
+    if (!source_ || !prepared_) return nullptr;
+    if (!fringe_) fringe_ = fringe_of(*prepared_->mesh, *source_);
+    return fringe_->get();
+  }
+
   const Layer& layer_;
   const Deformation& deformation_;
   bool linear_blend_;
   const Image* source_;
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
+  std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
   Motion motion_;
 };
 

@@ -60,16 +60,16 @@ Box placed_rectangle(const RasterJob& job) {
 
 /// The bounding box of the source rectangle's image under the map, computed from the mesh vertices
 /// inside the rectangle and the points where mesh edges cross its border.
-Box image_of_rectangle(const RasterJob& job) {
+Box image_of_rectangle(const RasterJob& job, const Mesh& mesh, std::span<const Complex> at) {
   const double w = job.source->width, h = job.source->height;
   const auto depth = [&](Complex z) {
     return std::array{z.real(), w - z.real(), z.imag(), h - z.imag()};
   };
   Box box;
-  for (const Triangle& t : job.mesh->triangles)
+  for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
       const int i = t[k], j = t[(k + 1) % 3];
-      const auto a = depth(job.mesh->vertices[i]), b = depth(job.mesh->vertices[j]);
+      const auto a = depth(mesh.vertices[i]), b = depth(mesh.vertices[j]);
       double from = 0, to = 1;
       for (int side = 0; side < 4; ++side) {
         if (a[side] < 0 && b[side] < 0) from = 2;
@@ -77,7 +77,7 @@ Box image_of_rectangle(const RasterJob& job) {
         if (a[side] >= 0 && b[side] < 0) to = std::min(to, a[side] / (a[side] - b[side]));
       }
       if (from > to) continue;
-      const Complex p = job.placement(job.positions[i]), q = job.placement(job.positions[j]);
+      const Complex p = job.placement(at[i]), q = job.placement(at[j]);
       box.include((1 - from) * p + from * q);
       box.include((1 - to) * p + to * q);
     }
@@ -89,6 +89,8 @@ Box image_of_rectangle(const RasterJob& job) {
 RasterResult rasterized(const RasterJob& job) {
   check(!job.mesh || job.positions.size() == job.mesh->vertices.size(),
         "rasterized: the numbers of positions and mesh vertices differ");
+  check(!job.fringe || job.fringe_positions.size() == job.fringe->vertices.size(),
+        "rasterized: the numbers of positions and vertices of the fringe differ");
   const double scale = job.pixels_per_unit;
   if (!(scale > 0) || !std::isfinite(scale))
     throw Error(ErrorKind::bad_input, "the scale must be a positive number");
@@ -129,9 +131,16 @@ RasterResult rasterized(const RasterJob& job) {
   if (job.mesh && !job.region && !(job.crop && job.source)) {
     Box box;
     if (job.source)
-      box = image_of_rectangle(job);
+      box = image_of_rectangle(job, *job.mesh, job.positions);
     else
       for (const Complex& z : job.positions) box.include(job.placement(z));
+    if (job.source && job.fringe) {
+      const Box around = image_of_rectangle(job, *job.fringe, job.fringe_positions);
+      if (!around.empty()) {
+        box.include({around.left, around.bottom});
+        box.include({around.right, around.top});
+      }
+    }
     if (!job.source) left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
     if (!box.empty()) {
       left = std::min(left, std::floor(box.left * scale + kRounding));

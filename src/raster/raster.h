@@ -15,6 +15,10 @@ namespace holomorph {
 struct RasterJob {
   const Mesh* mesh = nullptr;          ///< if null, only the source is drawn
   std::span<const Complex> positions;  ///< one per mesh vertex
+  /// A mesh below the first one, for pictures only, with one position per vertex. The picture
+  /// outside the rest cage is then drawn by it alone.
+  const Mesh* fringe = nullptr;
+  std::span<const Complex> fringe_positions;
   const Image* source = nullptr;       ///< may be null for heat maps and checkers
   View view = View::image;
   Eigen::VectorXd heat;  ///< one value per mesh vertex, for heat views

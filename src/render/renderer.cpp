@@ -74,11 +74,11 @@ void finish(const RenderFrame& frame) {
 struct Renderer::Objects {
   Program shaders = warp_program();
   GLuint program = shaders.id();
-  GLuint vertex_array = 0, quad_array = 0, ghost_array = 0;
+  GLuint vertex_array = 0, quad_array = 0, ghost_array = 0, fringe_array = 0;
   GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0,
-         feedback = 0, ghost = 0;
+         feedback = 0, ghost = 0, fringe_rest = 0, fringe_position = 0, fringe_triangles = 0;
   GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
-  GLsizei index_count = 0, vertex_count = 0;
+  GLsizei index_count = 0, vertex_count = 0, fringe_index_count = 0, fringe_vertex_count = 0;
   double width = 0, height = 0;                 ///< size of the picture, in plane units
   std::shared_ptr<const TextureLevels> levels;  ///< kept until all of them are uploaded
   bool stored = false;                          ///< storage for all levels is allocated
@@ -157,7 +157,15 @@ struct Renderer::Objects {
     draw_quad();
   }
   /// Draws the picture outside the rest cage.
-  void draw_surroundings() const {
+  void draw_surroundings(Placement placement) const {
+    if (index_count > 0 && fringe_index_count > 0) {
+      color(Coloring::picture);
+      glUniform1i(at("mode"), mode_of(placement == Placement::at_rest ? placement
+                                                                      : Placement::positions));
+      glBindVertexArray(fringe_array);
+      glDrawElements(GL_TRIANGLES, fringe_index_count, GL_UNSIGNED_INT, nullptr);
+      return;
+    }
     if (index_count > 0) {
       glEnable(GL_STENCIL_TEST);
       glStencilFunc(GL_ALWAYS, 1, 0xff);
@@ -183,7 +191,8 @@ Renderer::Renderer() {
   gl_ = std::make_unique<Objects>();
   Objects& gl = *gl_;
   for (GLuint* buffer : {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix,
-                         &gl.controls, &gl.feedback, &gl.ghost})
+                         &gl.controls, &gl.feedback, &gl.ghost, &gl.fringe_rest,
+                         &gl.fringe_position, &gl.fringe_triangles})
     glGenBuffers(1, buffer);
   for (GLuint* texture :
        {&gl.picture, &gl.sequential, &gl.diverging, &gl.matrix_texture, &gl.controls_texture})
@@ -191,6 +200,7 @@ Renderer::Renderer() {
   glGenVertexArrays(1, &gl.vertex_array);
   glGenVertexArrays(1, &gl.quad_array);
   glGenVertexArrays(1, &gl.ghost_array);
+  glGenVertexArrays(1, &gl.fringe_array);
 
   const auto attribute = [](GLuint buffer, GLuint location, GLint size) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -205,6 +215,10 @@ Renderer::Renderer() {
     attribute(gl.value, 2, 1);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.triangles);
   }
+  glBindVertexArray(gl.fringe_array);
+  attribute(gl.fringe_rest, 0, 2);
+  attribute(gl.fringe_position, 1, 2);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.fringe_triangles);
   glBindVertexArray(gl.quad_array);
   attribute(gl.quad, 0, 2);
   glBindVertexArray(0);
@@ -223,7 +237,8 @@ Renderer::Renderer() {
 Renderer::~Renderer() {
   Objects& gl = *gl_;
   for (const GLuint buffer : {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix,
-                              gl.controls, gl.feedback, gl.ghost})
+                              gl.controls, gl.feedback, gl.ghost, gl.fringe_rest,
+                              gl.fringe_position, gl.fringe_triangles})
     glDeleteBuffers(1, &buffer);
   for (const GLuint texture :
        {gl.picture, gl.sequential, gl.diverging, gl.matrix_texture, gl.controls_texture})
@@ -231,6 +246,7 @@ Renderer::~Renderer() {
   glDeleteVertexArrays(1, &gl.vertex_array);
   glDeleteVertexArrays(1, &gl.quad_array);
   glDeleteVertexArrays(1, &gl.ghost_array);
+  glDeleteVertexArrays(1, &gl.fringe_array);
 }
 
 int Renderer::largest_side() {
@@ -323,6 +339,7 @@ void Renderer::set_mesh(const Mesh* mesh) {
   Objects& gl = *gl_;
   gl.columns = 0;
   gl.index_count = gl.vertex_count = 0;
+  set_fringe(nullptr);
   if (!mesh) return;
   gl.vertex_count = static_cast<GLsizei>(mesh->vertices.size());
   gl.index_count = static_cast<GLsizei>(3 * mesh->triangles.size());
@@ -349,6 +366,29 @@ void Renderer::set_positions(std::span<const Complex> positions) {
         "set_positions: the numbers of positions and mesh vertices differ");
   const std::vector<float> flat = pairs(positions);
   upload(gl_->position, GL_ARRAY_BUFFER, flat.data(), flat.size() * sizeof(float), GL_STREAM_DRAW);
+}
+
+void Renderer::set_fringe(const Mesh* mesh) {
+  Objects& gl = *gl_;
+  gl.fringe_index_count = gl.fringe_vertex_count = 0;
+  if (!mesh) return;
+  gl.fringe_vertex_count = static_cast<GLsizei>(mesh->vertices.size());
+  gl.fringe_index_count = static_cast<GLsizei>(3 * mesh->triangles.size());
+  const std::vector<float> rest = pairs(mesh->vertices);
+  glBindVertexArray(gl.fringe_array);
+  upload(gl.fringe_rest, GL_ARRAY_BUFFER, rest.data(), rest.size() * sizeof(float), GL_STATIC_DRAW);
+  upload(gl.fringe_triangles, GL_ELEMENT_ARRAY_BUFFER, mesh->triangles.data(),
+         mesh->triangles.size() * sizeof(Triangle), GL_STATIC_DRAW);
+  glBindVertexArray(0);
+  set_fringe_positions(mesh->vertices);
+}
+
+void Renderer::set_fringe_positions(std::span<const Complex> positions) {
+  check(static_cast<GLsizei>(positions.size()) == gl_->fringe_vertex_count,
+        "set_fringe_positions: the numbers of positions and vertices differ");
+  const std::vector<float> flat = pairs(positions);
+  upload(gl_->fringe_position, GL_ARRAY_BUFFER, flat.data(), flat.size() * sizeof(float),
+         GL_STREAM_DRAW);
 }
 
 void Renderer::set_heat(const Eigen::VectorXf& positions) {
@@ -413,7 +453,7 @@ void Renderer::draw(const RenderFrame& frame) {
     if (picture && frame.content == Content::original) gl.draw_quad();
     return finish(frame);
   }
-  if (picture && frame.view == View::image && !frame.map_alone) gl.draw_surroundings();
+  if (picture && frame.view == View::image && !frame.map_alone) gl.draw_surroundings(frame.placement);
   if (picture) gl.draw_ghosts(frame.ghosts);
   if (gl.index_count > 0 && (picture || frame.view != View::image)) {
     gl.color(frame.view == View::image     ? Coloring::picture

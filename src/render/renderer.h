@@ -81,6 +81,10 @@ class Renderer {
   void set_triangles(const std::vector<Triangle>& triangles);
   /// Sets the vertex positions for Placement::positions.
   void set_positions(std::span<const Complex> positions);
+  /// Sets a mesh around the first one, which takes the place of the undeformed picture outside it.
+  /// Null removes it. set_mesh removes it, too.
+  void set_fringe(const Mesh* mesh);
+  void set_fringe_positions(std::span<const Complex> positions);
   /// Sets the position of each vertex's value on the heat scale, in [0, 1].
   void set_heat(const Eigen::VectorXf& positions);
   /// Sets the operator for Placement::by_operator; null removes it. Returns false if it does not

@@ -271,3 +271,28 @@ TEST_CASE("A texture has the picture's colors up to the surface's edge and a lit
   }
   CHECK_THROWS_AS(textured(flattened_surface_of(deformation), deformation, nullptr), Error);
 }
+
+TEST_CASE("What is faintly visible outside the cage of a cut-out goes along with it") {
+  Image image(60, 40);
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 60; ++column) {
+      std::uint8_t* pixel = image.at(column, row);
+      const bool solid = column >= 20 && column < 40 && row >= 10 && row < 30;
+      pixel[0] = static_cast<std::uint8_t>(4 * column), pixel[1] = 90, pixel[2] = 30;
+      pixel[3] = solid ? 255 : static_cast<std::uint8_t>(20 + column);
+    }
+  Layer layer;
+  layer.image = ImageReference{"picture.png"};
+  layer.deformation = with_cage({}, Points{{18, 8}, {42, 8}, {42, 32}, {18, 32}});
+  Scene scene = scene_of(layer);
+  CHECK(picture_of(scene, &image).image == image);
+
+  for (Points& segment : layer.deformation.pose.segments)
+    for (Complex& z : segment) z += Complex(25, -13);
+  const RasterResult moved = picture_of(scene_of(layer), &image, {.region = Box{25, -13, 85, 27}});
+  CHECK(moved.image == image);
+  const RasterResult all = picture_of(scene_of(layer), &image);
+  size_t visible = 0;
+  for (size_t i = 3; i < all.image.pixels.size(); i += 4) visible += all.image.pixels[i] > 0;
+  CHECK(visible == 60 * 40);  // nothing stays behind
+}

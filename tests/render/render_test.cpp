@@ -13,6 +13,7 @@
 #include "render/surface_renderer.h"
 #include "render/texture.h"
 #include "scene/document.h"
+#include "scene/fringe.h"
 #include "scene/live_map.h"
 #include "support/shapes.h"
 
@@ -371,4 +372,68 @@ TEST_CASE("The map alone is opaque on its image and transparent elsewhere") {
     area += std::abs(cross(map.f[b] - map.f[a], map.f[c] - map.f[a])) / 2;
   CHECK(half == 0);
   CHECK(opaque == Approx(area * frame.zoom * frame.zoom).epsilon(0.03));
+}
+
+TEST_CASE("A fringe and a rotated view are drawn like the exported pixels") {
+  // A soft disk, whose cage leaves out the faint part.
+  constexpr int kSide = 100;
+  Image image(kSide, kSide);
+  for (int r = 0; r < kSide; ++r)
+    for (int c = 0; c < kSide; ++c) {
+      const double d = std::hypot(c + 0.5 - 50, r + 0.5 - 50);
+      std::uint8_t* pixel = image.at(c, r);
+      pixel[0] = static_cast<std::uint8_t>(2 * c), pixel[1] = static_cast<std::uint8_t>(2 * r);
+      pixel[3] = static_cast<std::uint8_t>(d < 20 ? 255 : std::max(0.0, 110 - 4 * (d - 20)));
+    }
+  Points polygon;
+  for (int i = 0; i < 16; ++i) polygon.push_back(Complex(50, 50) + std::polar(24.0, kPi * i / 8));
+  const Mesh mesh = domain_mesh(polygon_cage(polygon), {400});
+  const auto fringe = fringe_of(mesh, image);
+  REQUIRE(fringe);
+  Points positions;
+  for (const Complex& z : mesh.vertices)
+    positions.push_back(z + 4e-3 * (z - Complex(50, 50)) * (z - Complex(50, 50)));
+  const Points around = fringe->positions(positions);
+  const Similarity placement{std::polar(1.0, 0.5), {50, 50}, {60, 40}};
+
+  RasterJob job;
+  job.mesh = &mesh;
+  job.positions = positions;
+  job.fringe = &fringe->mesh;
+  job.fringe_positions = around;
+  job.source = &image;
+  job.placement = placement;
+  job.region = Box{0, 0, kSide, kSide};
+  const Image exported = rasterized(job).image;
+
+  const Context context(kSide, kSide);
+  Renderer renderer;
+  renderer.set_picture(kSide, kSide, image.pixels.data());
+  renderer.set_mesh(&mesh);
+  renderer.set_fringe(&fringe->mesh);
+  renderer.set_positions(positions);
+  renderer.set_fringe_positions(around);
+  RenderFrame frame;
+  frame.window_width = frame.window_height = kSide;
+  frame.canvas_width = frame.canvas_height = kSide;
+  frame.center = inverse(placement)({50, 50});
+  frame.turn = placement.factor;
+  frame.over = true;  // without a page
+  frame.background = {0, 0, 0};
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  renderer.draw(frame);
+  Image shown(kSide, kSide);
+  read_framebuffer(kSide, kSide, shown.pixels.data());
+  double sum = 0;
+  int visible = 0;
+  for (int r = 0; r < kSide; ++r)
+    for (int c = 0; c < kSide; ++c) {
+      const std::uint8_t* e = exported.at(c, r);
+      visible += e[3] > 0;
+      for (int k = 0; k < 3; ++k) sum += std::abs(e[k] * e[3] / 255.0 - shown.at(c, r)[k]);
+    }
+  INFO("mean difference " << sum / (3.0 * visible));
+  CHECK(visible > 3000);
+  CHECK(sum / (3.0 * visible) < 1.0);  // of 255
 }

@@ -45,6 +45,36 @@ bool LayerPainter::allocate_texture() {
   return uploading_ = true;
 }
 
+void LayerPainter::update_fringe(const LiveMap& map) {
+  if (fringe_answer_) {
+    const std::lock_guard lock(fringe_answer_->mutex);
+    if (fringe_answer_->fringe) {
+      fringe_ = *std::exchange(fringe_answer_->fringe, std::nullopt);
+      renderer_.set_fringe(fringe_ ? &fringe_->mesh : nullptr);
+    }
+  }
+  const std::pair sought{map.prepared()->mesh, picture_};
+  if (fringed_ != sought) {
+    fringed_ = sought;
+    fringe_.reset();
+    renderer_.set_fringe(nullptr);
+    seeks_fringe_.reset();  // cancels the last search
+    fringe_answer_.reset();
+    if (!picture_) return;
+    fringe_answer_ = std::make_shared<FringeAnswer>();
+    seeks_fringe_ = std::make_unique<Job>(
+        "Fringe",
+        [sought, answer = fringe_answer_](Job::Progress& progress) {
+          auto fringe =
+              fringe_of(*sought.first, *sought.second, [&] { return !progress.cancelled(); });
+          const std::lock_guard lock(answer->mutex);
+          answer->fringe = std::move(fringe);
+        },
+        wake_);
+  }
+  if (fringe_) renderer_.set_fringe_positions(fringe_->positions(as_span(map.map().f)));
+}
+
 void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_range) {
   if (!is_heat(view) || !map.has_map() || map.map().fz.size() == 0) {
     heat_values_.resize(0);
@@ -59,11 +89,15 @@ void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_rang
   if (!map.has_map()) {
     renderer_.set_mesh(nullptr);
     uploaded_ = 0;
+    fringed_ = {};
     return;
   }
   const bool timed = map.timed().has_value();
   if (uploaded_ != map.preparation() || timed_ != timed) {
-    if (uploaded_ != map.preparation()) renderer_.set_mesh((mesh_ = map.drawn()).get());
+    if (uploaded_ != map.preparation()) {
+      renderer_.set_mesh((mesh_ = map.drawn()).get());
+      if (fringe_) renderer_.set_fringe(&fringe_->mesh);
+    }
     // The shader computes positions as a sum over controls. Software OpenGL is too slow for this,
     // and maps interpolated between keyframes are not such sums.
     by_operator_ = renderer_.set_operator(
@@ -77,6 +111,7 @@ void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_rang
   if (by_operator_ && map.posed())
     renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
   renderer_.set_positions(as_span(map.map().f));
+  update_fringe(map);
   if (heat_values_.size() != map.map().f.size()) return;
   Eigen::VectorXf shades(heat_values_.size());
   for (Index i = 0; i < shades.size(); ++i)

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
 #include "render/renderer.h"
 #include "scene/formats/image.h"
+#include "scene/fringe.h"
 #include "scene/live_map.h"
 #include "system/job.h"
 
@@ -25,7 +27,7 @@ class LayerPainter {
   bool allocate_texture();
   /// Whether the next frame will show more of the picture.
   bool is_uploading() const { return uploading_; }
-  /// Uploads the current map. If `view` is a heat map, also computes its values.
+  /// Uploads the current map. On another thread, finds what is faintly visible around a cut-out. If `view` is a heat map, also computes its values.
   void update_map(const LiveMap& map, View view, bool automatic_range);
   /// Draws the layer. Adapts the view and placement in `frame` to the uploaded map.
   void draw(const LiveMap& map, View view, RenderFrame frame);
@@ -37,6 +39,7 @@ class LayerPainter {
   bool by_operator() const { return by_operator_; }
 
  private:
+  void update_fringe(const LiveMap& map);
   void update_heat(const LiveMap& map, View view, bool automatic_range);
 
   std::function<void()> wake_;
@@ -46,6 +49,15 @@ class LayerPainter {
   bool uploading_ = false;
   int factor_ = 0;  ///< not returned yet; 0: none
   std::shared_ptr<const Image> picture_;
+  /// The fringe of the picture around a mesh; null while it is sought, or if there is none.
+  struct FringeAnswer {
+    std::mutex mutex;
+    std::optional<std::shared_ptr<const Fringe>> fringe;
+  };
+  std::pair<std::shared_ptr<const Mesh>, std::shared_ptr<const Image>> fringed_;
+  std::shared_ptr<const Fringe> fringe_;
+  std::shared_ptr<FringeAnswer> fringe_answer_;
+  std::unique_ptr<Job> seeks_fringe_;
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;
   std::shared_ptr<const Mesh> mesh_;

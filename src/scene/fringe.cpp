@@ -1,0 +1,136 @@
+// The outside is meshed like a cage: its outer loop is a box, and its hole is the cut-out. Each hole
+// of the cut-out is one more mesh.
+#include "scene/fringe.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+#include "core/mesh/mesher.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kVertices = 3000;  ///< of each mesh
+constexpr double kMargin = 2;    ///< around faint pixels, in pixels
+
+Polygon boundary_of(const Mesh& mesh) {
+  Polygon polygon{{}, mesh.holes};
+  for (const int v : mesh.boundary) polygon.points.push_back(mesh.vertices[static_cast<size_t>(v)]);
+  return polygon;
+}
+
+int largest_alpha(const Image& picture) {
+  std::uint8_t largest = 0;
+  for (size_t i = 3; i < picture.pixels.size(); i += 4)
+    largest = std::max(largest, picture.pixels[i]);
+  return largest;
+}
+
+/// The box of the faint pixels outside a polygon, in the plane. Empty if there are none, or if there
+/// are solid ones.
+Box faint_box(PolygonView polygon, const Image& picture, const std::function<bool()>& keep_going) {
+  std::vector<std::pair<Complex, Complex>> edges;
+  polygon.for_each_edge([&](Index, Complex a, Complex b) { edges.emplace_back(a, b); });
+  const int solid = (largest_alpha(picture) + 1) / 2;
+  Box box;
+  std::vector<double> crossings;
+  for (int row = 0; row < picture.height; ++row) {
+    if (!keep_going()) return {};
+    const double y = picture.height - row - 0.5;
+    crossings.clear();
+    for (const auto& [a, b] : edges)
+      if ((a.imag() <= y) != (b.imag() <= y))
+        crossings.push_back(a.real() + (b.real() - a.real()) * (y - a.imag()) /
+                                           (b.imag() - a.imag()));
+    std::ranges::sort(crossings);
+    crossings.push_back(1e300);
+    // The outside lies before the first crossing, between the second and the third, and so on.
+    const auto column = [&](double x) {
+      return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, double(picture.width)));
+    };
+    int first = 0;
+    for (size_t i = 0; i < crossings.size(); i += 2) {
+      for (int c = first, end = column(crossings[i]); c < end; ++c) {
+        const int alpha = picture.at(c, row)[3];
+        if (alpha >= solid) return {};
+        if (alpha > 0) box.include({c + 0.5, y});
+      }
+      first = i + 1 < crossings.size() ? column(crossings[i + 1]) : picture.width;
+    }
+  }
+  return box;
+}
+
+/// Adds the mesh inside a polygon to the fringe.
+void add_part(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygon& boundary,
+              const std::map<std::pair<double, double>, int>& known) {
+  const Mesh part = domain_mesh(inside, {kVertices});
+  const int base = static_cast<int>(fringe.mesh.vertices.size());
+  const Loops loops = mesh.boundary_loops();
+  for (const Complex& z : part.vertices) {
+    fringe.mesh.vertices.push_back(z);
+    const auto same = known.find({z.real(), z.imag()});
+    if (same != known.end()) {
+      fringe.followers.push_back({same->second, same->second, 0});
+      continue;
+    }
+    const Index edge = nearest_on_polygon(boundary, z).edge;
+    const int a = mesh.boundary[static_cast<size_t>(edge)],
+              b = mesh.boundary[static_cast<size_t>(loops.next(edge))];
+    const Complex from = mesh.vertices[static_cast<size_t>(a)],
+                  way = mesh.vertices[static_cast<size_t>(b)] - from;
+    fringe.followers.push_back({a, b, (z - from) / way});
+  }
+  for (Triangle t : part.triangles) {
+    for (int& corner : t) corner += base;
+    fringe.mesh.triangles.push_back(t);
+  }
+}
+
+}  // namespace
+
+Points Fringe::positions(std::span<const Complex> f) const {
+  Points at;
+  at.reserve(followers.size());
+  for (const auto& [a, b, t] : followers) {
+    const Complex from = f[static_cast<size_t>(a)];
+    at.push_back(a == b ? from : from + t * (f[static_cast<size_t>(b)] - from));
+  }
+  return at;
+}
+
+std::shared_ptr<const Fringe> fringe_of(const Mesh& mesh, const Image& picture,
+                                        const std::function<bool()>& keep_going) {
+  const Polygon boundary = boundary_of(mesh);
+  const Box faint = faint_box(boundary, picture, keep_going);
+  if (faint.empty()) return nullptr;
+  Box outer = box_of(boundary.points);
+  outer.include({faint.left, faint.bottom});
+  outer.include({faint.right, faint.top});
+  const Points frame{{outer.left - kMargin, outer.bottom - kMargin},
+                     {outer.right + kMargin, outer.bottom - kMargin},
+                     {outer.right + kMargin, outer.top + kMargin},
+                     {outer.left - kMargin, outer.top + kMargin}};
+  std::map<std::pair<double, double>, int> known;
+  for (const int v : mesh.boundary) {
+    const Complex z = mesh.vertices[static_cast<size_t>(v)];
+    known[{z.real(), z.imag()}] = v;
+  }
+  auto fringe = std::make_shared<Fringe>();
+  try {
+    const PolygonView loops(boundary);
+    Polygon around{frame, {static_cast<Index>(frame.size())}};
+    const auto outline = loops.loop(0);
+    around.points.insert(around.points.end(), outline.begin(), outline.end());
+    add_part(*fringe, around, mesh, boundary, known);
+    for (Index hole = 1; hole < loops.loops().count() && keep_going(); ++hole)
+      add_part(*fringe, loops.loop(hole), mesh, boundary, known);
+  } catch (const Error&) {
+    return nullptr;  // such a boundary has no mesh around it
+  }
+  return keep_going() ? fringe : nullptr;
+}
+
+}  // namespace holomorph
