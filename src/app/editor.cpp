@@ -97,7 +97,8 @@ class Editor {
       fit_ = true;
     }
     window_.begin_frame(navigates_items(window_focus()));
-    const PanelSizes sizes = PanelSizes::now();
+    PanelSizes sizes = PanelSizes::now();
+    sizes.timeline = timeline_.height(workspace_, sizes);
     layout(sizes);
     const double start = now_ms();
     handle_events();
@@ -328,6 +329,7 @@ class Editor {
       input.pressed = input.double_clicked = input.inside = false;
     if (input.pressed && !workspace_.require_open_layer())
       input.pressed = input.double_clicked = input.inside = false;
+    if (input.pressed) workspace_.shown.timeline.keys.clear();  // so that Delete removes handles
     current_tool().input(input, workspace_);
   }
 
@@ -416,7 +418,7 @@ class Editor {
       draw_options_bar(workspace_, sizes);
       if (workspace_.shows_surface()) surface_pane_.draw(workspace_, canvas_, style);
       draw_cards(style, sizes);
-      if (workspace_.shown.timeline.visible) timeline_.draw(workspace_, sizes);
+      if (workspace_.shown.timeline.visible) timeline_.draw(workspace_, thumbnails_, sizes);
       const PanelAnswer context = draw_context_menu(workspace_, preferences_, thumbnails_);
       comparison_.draw(workspace_, style);
       status = status_of(input);

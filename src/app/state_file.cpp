@@ -51,6 +51,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"outline_points", deformation.outline.size()},
       {"corners", deformation.corners.size()},
       {"selected", workspace.selection.size()},
+      {"selected_keys", workspace.shown.timeline.keys.size()},
       {"layers", kept.layers.size()},
       {"edited_layer", kept.edited},
       {"locked", kept.layer().locked},

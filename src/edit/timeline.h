@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "scene/keyframes.h"
+#include "scene/key_selection.h"
 
 namespace holomorph {
 
@@ -11,7 +11,7 @@ struct Timeline {
   double time = 0;      ///< seconds
   bool active = false;  ///< the canvas shows the picture at `time`, not the scene's own pose
   bool playing = false, loop = true;
-  bool chosen = false;                  ///< the keyframe at `time` was clicked
+  KeySelection keys = {};               ///< the selected keyframes, of any layers
   bool recording = false;               ///< a drag is recorded as keyframes in real time
   bool auto_key = false;                ///< edits of the pose set keyframes
   bool onion = false;                   ///< onion skin: show the keyframes before and after `time`
@@ -22,7 +22,6 @@ struct Timeline {
   void go_to(double seconds) {
     time = std::clamp(seconds, 0.0, kMaxTime);
     active = true;
-    chosen = false;
     clock_ms.reset();
   }
 };

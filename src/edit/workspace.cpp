@@ -361,6 +361,7 @@ void Workspace::erase(const Selection& handles, Refit refit) {
 void Workspace::prune_selection() {
   std::erase_if(selection,
                 [&](const Handle& handle) { return !exists(shown.deformation(), handle, mode); });
+  shown.timeline.keys = editable_keys(document.scene(), shown.timeline.keys);
 }
 
 void Workspace::open(Document opened) {

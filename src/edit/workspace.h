@@ -126,7 +126,7 @@ struct Workspace {
   }
   /// Centers the canvas on a point of the edited layer.
   void center_on(Complex z) {
-    display.viewport.center = display.viewport.plane_at_px(layer_view().px_at_plane(z));
+    display.viewport.center = at_rest() ? z : placement(document.scene().edited)(z);
   }
   /// Whether the canvas shows the picture at rest.
   bool at_rest() const { return mode == EditMode::rest || display.show_original; }

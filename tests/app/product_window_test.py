@@ -1,8 +1,13 @@
 # Tests of the first minutes in the real window: few actions to a bent picture, methods that are easy to change, panels
 # that stay in place.
+import json
 import os
+import shutil
 import sys
 import time
+
+import numpy
+from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
 from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
@@ -103,6 +108,115 @@ class ProductWindowTest(WindowCase):
             for tool in ("tool.select", "tool.brush", "tool.pen", "tool.stroke", "tool.pin"):
                 editor.press_item(tool)
                 self.assertEqual(places(), before, tool)
+
+    def two_ferns(self):
+        """A scene with two layers that have keyframes at 0, 1 and 2 seconds."""
+        shutil.copy(os.path.join(SOURCE, "assets/fern.png"), self.work)
+        layers = []
+        for k, name in enumerate(("lower", "upper")):
+            x = 40 + 150 * k
+            cage = [[[x, 20]], [[x + 100, 20]], [[x + 100, 600]], [[x, 600]]]
+            bent = [[[x, 20]], [[x + 100, 20]], [[x + 190, 600]], [[x + 90, 600]]]
+            keys = [{"time": t, "pose": {"cage": pose}} for t, pose in ((0, cage), (1, bent), (2, cage))]
+            layers.append({"name": name, "image": {"file": "fern.png"}, "cage": {"rest": cage}, "method": {"id": "cage"}, "keyframes": keys})
+        path = os.path.join(self.work, "ferns.json")
+        with open(path, "w") as file:
+            json.dump({"format": "holomorph", "version": 2, "layers": layers, "edited": 1}, file)
+        return path
+
+    def test_the_timeline_edits_keys_of_several_layers(self):
+        with Editor(PROGRAM, [self.two_ferns()]) as editor:
+            editor.wait(lambda s: s["pictured"] and "keys" in s["items"], "the timeline")
+            left, top, right, bottom = editor.state()["items"]["keys"]
+            width, row = right - left - 32, (bottom - top) / 2  # the ruler shows 2.2 s
+
+            def at(seconds, number):
+                return round(left + 16 + seconds / 2.2 * width), round(top + (number + 0.5) * row)
+
+            def drag(start, end, keys=()):
+                for key in keys:
+                    editor.xdotool("keydown", key)
+                editor.xdotool("mousemove", *start)
+                editor.xdotool("mousedown", 1)
+                for t in (0.3, 0.7, 1):
+                    editor.xdotool("mousemove", *(round(a + t * (b - a)) for a, b in zip(start, end)))
+                editor.xdotool("mouseup", 1)
+                for key in keys:
+                    editor.xdotool("keyup", key)
+
+            def times(name):
+                return [[round(key["time"], 3) for key in layer["keyframes"]] for layer in self.saved(editor, name)["layers"]]
+
+            # A box over the middle keys of both layers, and a drag of one of them.
+            drag((at(0.7, 0)[0], top + 2), (at(1.3, 1)[0], bottom - 2))
+            editor.wait(lambda s: s["selected_keys"] == 2, "two selected keys")
+            drag(at(1, 0), at(1.5, 0))
+            editor.wait(lambda s: s["modified"], "moved keys")
+            self.screenshot(editor, "moved-keys")
+            self.assertEqual(times("moved.json"), [[0, 1.5, 2]] * 2)
+            # Shift adds keys; a bar of the box stretches them.
+            editor.xdotool("keydown", "shift")
+            for number in (0, 1):
+                editor.press(*at(2, number))
+            editor.xdotool("keyup", "shift")
+            editor.wait(lambda s: s["selected_keys"] == 4, "four selected keys")
+            self.screenshot(editor, "stretched-keys")
+            x, y = at(1.5, 0)
+            drag((x - 14, round(top + row)), (at(0.5, 0)[0] - 14, round(top + row)))
+            self.assertEqual(times("stretched.json"), [[0, 0.5, 2]] * 2)
+            # Easing and deletion act on all of them, each as one step.
+            editor.press_item("Ease: Linear")
+            self.assertEqual([[key.get("ease") for key in layer["keyframes"]] for layer in self.saved(editor, "eased.json")["layers"]],
+                             [[None, "linear", "linear"]] * 2)
+            editor.key("Delete")
+            editor.wait(lambda s: s["keys"] == 1, "the deletion")
+            self.assertEqual(times("deleted.json"), [[0]] * 2)
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["keys"] == 3, "undo")
+            # Ctrl copies.
+            editor.press(*at(0.5, 0))
+            editor.wait(lambda s: s["selected_keys"] == 1, "one selected key")
+            drag(at(0.5, 0), at(1.25, 0), ["ctrl"])
+            self.assertEqual(times("copied.json"), [[0, 0.5, 2], [0, 0.5, 1.25, 2]])
+
+    def test_a_hat_follows_the_pin_that_was_clicked(self):
+        Image.new("RGBA", (80, 60), (230, 30, 30, 255)).save(os.path.join(self.work, "hat.png"))
+        shutil.copy(os.path.join(SOURCE, "assets/gecko.png"), self.work)
+        scene = load(os.path.join(SOURCE, "assets/gecko.json"))
+        scene["image"] = {"file": "gecko.png"}
+        body = {key: scene[key] for key in ("image", "cage", "pins", "method")}
+        hat = {"name": "hat", "image": {"file": "hat.png"}, "cage": {"rest": []},
+               "placement": {"factor": [1, 0], "shift": [850, 600]}}
+        path = os.path.join(self.work, "hat.json")
+        with open(path, "w") as file:
+            json.dump({"format": "holomorph", "version": 2, "layers": [dict(body, name="gecko"), hat], "edited": 1}, file)
+        with Editor(PROGRAM, [path]) as editor:
+            editor.wait(lambda s: s["pictured"] and not s["moving"], "the scene")
+            time.sleep(1)
+            pin = 5  # on the head
+            head = body["pins"][pin].get("pose", body["pins"][pin]["rest"])
+            editor.press_item("attach")
+            editor.wait(lambda s: s["tool"] == "attach", "the tool")
+            editor.click(*head)
+            editor.wait(lambda s: s["tool"] == "select" and s["modified"], "the attachment")
+            before = self.screenshot(editor, "attached-hat")
+            layers = self.saved(editor, "attached.json")["layers"]
+            self.assertEqual(layers[1]["attachment"], {"layer": layers[0]["id"], "pin": layers[0]["pins"][pin]["id"]})
+            editor.press_item("Layer: gecko")
+            editor.wait(lambda s: s["edited_layer"] == 0, "the gecko")
+            editor.drag(head, (head[0] - 40, head[1] - 120))
+            editor.wait(lambda s: s["modified"] and not s["gesture"], "the bent gecko")
+            time.sleep(0.5)
+            after = self.screenshot(editor, "carried-hat")
+            # The hat is red. It has moved with the head.
+            red = lambda image: numpy.argwhere((image[:, :1000, 0] > 180) & (image[:, :1000, 1] < 90)).mean(axis=0)  # noqa: E731
+            moved = red(after) - red(before)
+            zoom = editor.state()["zoom"]
+            self.assertGreater(moved[0], 50 * zoom)
+            # Without its pin, the hat stays where it is.
+            editor.key("Delete")
+            editor.wait(lambda s: s["pins"] == len(body["pins"]) - 1, "the deleted pin")
+            self.assertNotIn("attachment", self.saved(editor, "frozen.json")["layers"][1])
 
 
 if __name__ == "__main__":

@@ -490,8 +490,8 @@ class WindowTest(WindowCase):
             editor.wait(lambda s: s["keys"] == 2 and s["shows_time"], "another key")
             bent = self.screenshot(editor, "second-key")
             # Scrubs on the ruler, which is two seconds long and snaps to frames.
-            left, top, right, bottom = editor.state()["items"]["track"]
-            left, top, width = left + 10, top + 8, right - left - 20
+            left, top, right, bottom = editor.state()["items"]["ruler"]
+            left, top, width = left + 16, top + 8, right - left - 32
             editor.xdotool("mousemove", round(left + width / 2), round(top))
             editor.xdotool("mousedown", 1)
             editor.wait(lambda s: abs(s["time"] - 1) < 0.06 and s["shows_time"], "the time of the pointer")

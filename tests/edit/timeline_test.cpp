@@ -103,7 +103,8 @@ TEST_CASE("Timeline: Delete removes the keyframe that was clicked, not points") 
   set_two_keys(desk);
   go_to(desk, 1);
   CHECK_FALSE(desk.workspace.actions.named("edit.delete").enabled(desk.workspace));
-  desk.workspace.shown.timeline.chosen = true;  // as the panel does
+  const int layer = desk.workspace.document.scene().layer().id;
+  desk.workspace.shown.timeline.keys = {{layer, 1.0}};  // as the panel does
   act(desk, "edit.delete");
   CHECK(desk.workspace.shown.own().keyframes.size() == 1);
   CHECK(desk.workspace.shown.own().rest.size() == 4);

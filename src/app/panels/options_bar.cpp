@@ -277,14 +277,14 @@ void add_drag_groups(OptionGroups& groups, Workspace& workspace) {
 void add_key_groups(OptionGroups& groups, Workspace& workspace) {
   groups.push_back(
       {"ease", [&workspace] {
-         inline_label("Ease", "The motion from this keyframe to the next one");
-         const Deformation deformation = workspace.shown.own();
-         const size_t key = key_at(deformation, workspace.shown.timeline.time);
-         if (key >= deformation.keyframes.size()) return;
-         const auto chosen = static_cast<size_t>(deformation.keyframes[key].ease);
+         inline_label("Ease", "The motion from these keyframes to the next ones");
+         const Scene& scene = workspace.document.scene();
+         const KeySelection keys = workspace.shown.timeline.keys;
+         const std::optional<Ease> common = common_ease(scene, keys);
+         const auto chosen = common ? std::optional(static_cast<size_t>(*common)) : std::nullopt;
          if (const auto clicked = segmented("Ease", {"Smooth", "Linear", "Hold"}, chosen))
-           workspace.commit("Easing", with_ease(deformation, key, static_cast<Ease>(*clicked)),
-                            EditBase::document);
+           workspace.commit_layers("Easing",
+                                   with_keys_eased(scene, keys, static_cast<Ease>(*clicked)));
        }});
   groups.push_back({"between", [&workspace] {
                       inline_label("Between",
@@ -298,14 +298,12 @@ void add_key_groups(OptionGroups& groups, Workspace& workspace) {
                             "Blending", with_animation(workspace.document.scene(), settings));
                       }
                     }});
-  groups.push_back(
-      {"delete", [&workspace] { action_option("time.delete_key", "Delete", workspace); }});
-}
-
-bool has_chosen_key(const Workspace& workspace) {
-  const Deformation& own = workspace.shown.own();
-  return workspace.shown.timeline.chosen &&
-         key_at(own, workspace.shown.timeline.time) < own.keyframes.size();
+  for (const auto& [id, label] : {std::pair("time.copy_keys", "Duplicate"),
+                                  {"time.mirror_keys", "Mirror"},
+                                  {"time.delete_key", "Delete"}})
+    groups.push_back({id, [&workspace, id = id, label = label] {
+                        action_option(id, label, workspace);
+                      }});
 }
 
 /// The icon and name of the bar, and its groups.
@@ -318,8 +316,8 @@ struct Options {
 Options options_of(Workspace& workspace) {
   Options options;
   OptionGroups& groups = options.groups;
-  if (has_chosen_key(workspace)) {
-    options = {icon_named("key"), "Keyframe", {}};
+  if (const size_t keys = workspace.shown.timeline.keys.size(); keys > 0) {
+    options = {icon_named("key"), keys == 1 ? "Keyframe" : std::to_string(keys) + " keyframes", {}};
     add_key_groups(groups, workspace);
     return options;
   }

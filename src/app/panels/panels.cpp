@@ -19,9 +19,7 @@ PanelSizes PanelSizes::now() {
   sizes.options = px(44);
   sizes.inspector = std::min<double>(px(304), std::floor(0.4 * width));
   sizes.status = px(28);
-  sizes.timeline = px(44) + px(28) + px(44);
   sizes.two_rows = width - sizes.toolbar - sizes.inspector < px(860);
-  if (sizes.two_rows) sizes.timeline += px(36);
   return sizes;
 }
 

@@ -28,7 +28,8 @@ struct PanelAnswer {
 
 /// Sizes of the panels in window px.
 struct PanelSizes {
-  double menu, toolbar, options, inspector, status, timeline;
+  double menu, toolbar, options, inspector, status;
+  double timeline = 0;    ///< set by the editor
   bool two_rows = false;  ///< the timeline's numbers form a second row below its buttons
   /// At the current interface scale and window size.
   static PanelSizes now();

@@ -163,10 +163,61 @@ void many_handles(Workspace& workspace) {
   turn_and_scale(workspace);
 }
 
+/// Moves the selected keyframes as one step, if nothing is in their way.
+void move_keys(Workspace& workspace, const Change& change, const char* step, const TimeMap& map) {
+  if (change.changed) {
+    auto moved = with_keys_moved(workspace.document.scene(), workspace.shown.timeline.keys, map,
+                                 false);
+    if (moved) {
+      workspace.commit_or_amend_layers(step, std::move(moved->scene));
+      workspace.shown.timeline.keys = std::move(moved->keys);
+    }
+  }
+  if (change.ended) workspace.end_mergeable_step();
+}
+
+/// When the selected keyframes start, how long they take, and the whole turns before a single one.
+void key_rows(Workspace& workspace) {
+  const KeySelection keys = workspace.shown.timeline.keys;
+  const auto [first, last] = span_of(keys);
+  const double longest = std::max(2.0, 1.5 * length_of(workspace.document.scene()));
+  double start = first, length = last - first;
+  const Change moves =
+      slider_row("Start", start, {.low = 0, .high = longest, .unit = "s", .decimals = 2});
+  move_keys(workspace, moves, "Move keyframes", {1, first, std::max(start, 0.0)});
+  ImGui::BeginDisabled(first == last);
+  const Change stretches =
+      slider_row("Length", length, {.low = 0, .high = longest, .unit = "s", .decimals = 2});
+  if (first < last)
+    move_keys(workspace, stretches, "Stretch keyframes",
+              {std::max(length, 1e-2) / (last - first), first, first});
+  ImGui::EndDisabled();
+  const Deformation own = workspace.shown.own();
+  const size_t key = key_at(own, first);
+  const bool single = keys.size() == 1 && key > 0 && key < own.keyframes.size() &&
+                      keys.begin()->layer == workspace.document.scene().layer().id;
+  double turns = single ? own.keyframes[key].turns : 0;
+  ImGui::BeginDisabled(!single);
+  const Change turned = slider_row("Whole turns", turns,
+                                   {.low = -10, .high = 10, .neutral = 0.0},
+                                   "Extra whole turns between the previous keyframe and this one");
+  if (turned.changed && single) {
+    Deformation after = own;
+    after.keyframes[key].turns =
+        std::clamp(static_cast<int>(std::lround(turns)), -kMaxTurns, kMaxTurns);
+    workspace.commit_or_amend("Whole turns", after, EditBase::document);
+    workspace.shown.timeline.keys = keys;
+  }
+  if (turned.ended) workspace.end_mergeable_step();
+  ImGui::EndDisabled();
+}
+
 }  // namespace
 
 std::string selection_title(const Workspace& workspace) {
   const Selection& selection = workspace.selection;
+  if (const size_t keys = workspace.shown.timeline.keys.size(); keys > 0)
+    return keys == 1 ? "Keyframe" : std::to_string(keys) + " keyframes";
   if (selection.empty()) return "Selection";
   std::string kind = kind_of(selection);
   if (selection.size() > 1) return std::to_string(selection.size()) + " " + kind + "s";
@@ -179,7 +230,9 @@ std::string selection_title(const Workspace& workspace) {
 void selection_section(Workspace& workspace) {
   const ImVec2 at = ImGui::GetCursorPos();
   const float height = 4 * px(36) + px(24);  // four rows and a note
-  if (workspace.selection.empty()) {
+  if (!workspace.shown.timeline.keys.empty()) {
+    key_rows(workspace);
+  } else if (workspace.selection.empty()) {
     caption(workspace.shown.deformation().has_cage()
                 ? "Nothing is selected. Click a point, a pin or a stroke, or drag a box around "
                   "some of them."

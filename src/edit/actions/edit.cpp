@@ -43,12 +43,8 @@ void select_all(Workspace& w) {
   w.selection = Selection(all.begin(), all.end());
 }
 
-bool has_chosen_key(const Workspace& w) {
-  const Deformation& own = w.shown.own();
-  return w.shown.timeline.chosen && key_at(own, w.shown.timeline.time) < own.keyframes.size();
-}
 bool can_erase(const Workspace& w) {
-  return has_selection(w) || has_chosen_key(w);
+  return has_selection(w) || !w.shown.timeline.keys.empty();
 }
 template <Refit refit>
 void erase_selection(Workspace& w) {

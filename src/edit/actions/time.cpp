@@ -16,6 +16,37 @@ std::optional<size_t> key_here(const Workspace& w) {
   const size_t key = key_at(w.shown.own(), w.shown.timeline.time);
   return key < w.shown.own().keyframes.size() ? std::optional(key) : std::nullopt;
 }
+/// The selected keyframes, or else the one at the current time.
+KeySelection chosen_keys(const Workspace& w) {
+  const Scene& scene = w.document.scene();
+  const KeySelection keys = editable_keys(scene, w.shown.timeline.keys);
+  if (!keys.empty()) return keys;
+  const std::optional<size_t> here = key_here(w);
+  return here ? KeySelection{{scene.layer().id, w.shown.own().keyframes[*here].time}}
+              : KeySelection{};
+}
+bool has_chosen_keys(const Workspace& w) {
+  return !chosen_keys(w).empty();
+}
+std::string for_keys(const std::string& what, const KeySelection& keys) {
+  return what + (keys.size() == 1 ? " keyframe" : " keyframes");
+}
+
+/// Copies the selected keyframes to the current time, or behind them if it is among them.
+void duplicate_keys(Workspace& w) {
+  const KeySelection keys = chosen_keys(w);
+  const auto [first, last] = span_of(keys);
+  const Scene& scene = w.document.scene();
+  const double frame = 1 / scene.animation.frames_per_second, time = w.shown.timeline.time;
+  for (const double to : {time, std::max(last, time) + frame}) {
+    const auto copied = with_keys_moved(scene, keys, {1, first, to}, false, true);
+    if (!copied) continue;
+    if (w.commit_layers(for_keys("Copy", keys), copied->scene)) w.shown.timeline.keys = copied->keys;
+    return;
+  }
+  w.messages.say("There are other keyframes where the copies would be.");
+}
+
 template <int by>
 void step_frame(Workspace& w) {
   w.shown.timeline.playing = false;
@@ -93,12 +124,45 @@ std::vector<Action> time_actions() {
       {
           .id = "time.delete_key",
           .label = "Delete keyframe",
-          .hint = "Delete the keyframe at the current time",
-          .enabled = [](const Workspace& w) { return key_here(w).has_value(); },
+          .hint = "Delete the selected keyframes, or the one at the current time",
+          .enabled = has_chosen_keys,
           .run =
               [](Workspace& w) {
-                w.commit("Delete keyframe", without_key(w.shown.own(), *key_here(w)),
-                         EditBase::document);
+                const KeySelection keys = chosen_keys(w);
+                w.commit_layers(for_keys("Delete", keys), without_keys(w.document.scene(), keys));
+              },
+      },
+      {
+          .id = "time.copy_keys",
+          .label = "Duplicate keyframes",
+          .hint = "Copy the selected keyframes to the current time",
+          .icon = icon_named("duplicate"),
+          .enabled = has_chosen_keys,
+          .run = duplicate_keys,
+      },
+      {
+          .id = "time.mirror_keys",
+          .label = "Mirror keyframes",
+          .hint = "Mirror the selected poses; needs a cage that is symmetric at rest",
+          .icon = icon_named("symmetry"),
+          .enabled = has_chosen_keys,
+          .run =
+              [](Workspace& w) {
+                const KeySelection keys = chosen_keys(w);
+                w.commit_layers(for_keys("Mirror", keys),
+                                with_keys_mirrored(w.document.scene(), keys));
+              },
+      },
+      {
+          .id = "time.select_keys",
+          .label = "Select all keyframes",
+          .enabled = has_keys,
+          .run =
+              [](Workspace& w) {
+                const Scene& scene = w.document.scene();
+                w.selection.clear();
+                w.shown.timeline.keys = editable_keys(scene, all_keys(scene));
+                w.shown.timeline.visible = true;
               },
       },
       {

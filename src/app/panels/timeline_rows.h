@@ -1,0 +1,51 @@
+// The rows of the timeline: the keyframes of each layer, and of the parts of its pose.
+#pragma once
+
+#include <set>
+
+#include "app/panels/time_ruler.h"
+#include "app/thumbnails.h"
+#include "edit/tools/key_drag.h"
+
+namespace holomorph {
+
+class TimelineRows {
+ public:
+  /// The height of the ruler and of all rows, at most five, in px.
+  float height(const Workspace& workspace) const;
+  void draw(Workspace& workspace, Thumbnails& thumbnails);
+  TimeRuler& ruler() { return ruler_; }
+
+ private:
+  enum class Held { nothing, time, keys, box };
+  /// The keyframes of a layer, or of a part of its pose, such as "Pins".
+  struct Row {
+    size_t layer = 0;
+    std::string part = {};  ///< empty for the layer itself
+    std::vector<double> times = {};
+  };
+  std::vector<Row> rows_of(const Workspace& workspace) const;
+  void draw_ruler(Workspace& workspace, float names);
+  void draw_name(Workspace& workspace, const Row& row, ImVec2 at, float width,
+                 Thumbnails& thumbnails);
+  void draw_keys(const Workspace& workspace, const Row& row, float middle) const;
+  void draw_selection_box(const Workspace& workspace);
+  void draw_menu(Workspace& workspace);
+  std::optional<KeyId> key_under(const Workspace& workspace, ImVec2 pointer) const;
+  void press(Workspace& workspace, ImVec2 pointer);
+  void follow(Workspace& workspace, ImVec2 pointer);
+  void select_in_box(Workspace& workspace, ImVec2 to);
+
+  TimeRuler ruler_;
+  std::set<int> open_;  ///< ids of the layers whose parts are shown
+  std::vector<Row> rows_;
+  float top_ = 0;  ///< of the first row, in the window
+  ImVec4 box_{};   ///< around the selected keyframes; empty if there is none
+  Held held_ = Held::nothing;
+  ImVec2 pressed_{};
+  bool moved_ = false;
+  KeySelection before_box_;
+  KeyDrag drag_;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,136 @@
+// Edits of keyframes of several layers at once.
+#include "scene/key_selection.h"
+
+#include <catch2/catch.hpp>
+
+#include "scene/layers.h"
+#include "support/seeds.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// A scene with layers 1, 2, ... that have keyframes at these times.
+Scene keyed_scene(const std::vector<std::vector<double>>& times) {
+  std::vector<Layer> layers;
+  for (const std::vector<double>& of_layer : times) {
+    Layer layer;
+    layer.id = static_cast<int>(layers.size()) + 1;
+    layer.deformation = with_cage({}, shapes::rectangle(100, 50));
+    for (const double time : of_layer) {
+      layer.deformation.pose.segments[0][0] = Complex(-time, time);  // recognizes the keyframe
+      layer.deformation = with_key(std::move(layer.deformation), time);
+    }
+    layers.push_back(std::move(layer));
+  }
+  Scene scene;
+  scene.layers = shared(std::move(layers));
+  return scene;
+}
+
+std::vector<double> times_of(const Scene& scene, size_t layer) {
+  std::vector<double> times;
+  for (const Keyframe& key : scene.layers[layer]->deformation.keyframes) times.push_back(key.time);
+  return times;
+}
+/// The time at which a keyframe was made.
+double origin(const Keyframe& key) {
+  return key.pose.cage.segments[0][0].imag();
+}
+
+using Times = std::vector<double>;
+
+}  // namespace
+
+TEST_CASE("keys: moving takes the selected keys along, in all layers") {
+  const Scene scene = keyed_scene({{0, 1, 2}, {0.5, 1, 3}});
+  const KeySelection keys{{1, 1}, {1, 2}, {2, 1}};
+  const auto moved = with_keys_moved(scene, keys, {1, 0, 0.25}, false);
+  REQUIRE(moved);
+  CHECK(times_of(moved->scene, 0) == Times{0, 1.25, 2.25});
+  CHECK(times_of(moved->scene, 1) == Times{0.5, 1.25, 3});
+  CHECK(moved->keys == KeySelection{{1, 1.25}, {1, 2.25}, {2, 1.25}});
+  CHECK(origin(moved->scene.layers[0]->deformation.keyframes[2]) == 2);
+  // They can pass other keys, but not meet them, and not leave the allowed range.
+  const auto passed = with_keys_moved(scene, {{1, 0}}, {1, 0, 1.5}, false);
+  REQUIRE(passed);
+  CHECK(times_of(passed->scene, 0) == Times{1, 1.5, 2});
+  CHECK_FALSE(with_keys_moved(scene, {{1, 0}}, {1, 0, 1}, false));
+  CHECK_FALSE(with_keys_moved(scene, keys, {1, 0, -1.5}, false));
+  CHECK_FALSE(with_keys_moved(scene, keys, {1, 0, kMaxTime}, false));
+  CHECK(with_keys_moved(scene, keys, {}, false)->scene == scene);
+}
+
+TEST_CASE("keys: moving and moving back, stretching and shrinking give the same scene") {
+  for (const unsigned seed : seeds_of("keys", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    std::vector<Times> times(3);
+    for (Times& of_layer : times)
+      for (int i = 0; i < 6; ++i) of_layer.push_back(i + 0.9 * std::abs(random_complex(random).real()));
+    const Scene scene = keyed_scene(times);
+    KeySelection keys;
+    for (const KeyId& key : all_keys(scene))
+      if (random_complex(random).real() > 0) keys.insert(key);
+    if (keys.empty()) continue;
+    const double by = 50 + 10 * std::abs(random_complex(random).imag());
+    for (const TimeMap& map : {TimeMap{1, 0, by}, TimeMap{2.5, 0, by}}) {
+      const auto there = with_keys_moved(scene, keys, map, false);
+      REQUIRE(there);
+      CHECK(there->keys.size() == keys.size());
+      const auto back =
+          with_keys_moved(there->scene, there->keys, {1 / map.factor, map.to, map.from}, false);
+      REQUIRE(back);
+      for (size_t layer = 0; layer < 3; ++layer) {
+        const Times now = times_of(back->scene, layer);
+        REQUIRE(now.size() == times[layer].size());
+        for (size_t i = 0; i < now.size(); ++i)
+          CHECK(now[i] == Approx(times[layer][i]).margin(1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("keys: stretched keys are on whole frames, and none is lost") {
+  const Scene scene = keyed_scene({{0, 0.5, 1}});
+  const KeySelection keys = all_keys(scene);
+  const auto longer = with_keys_moved(scene, keys, {1.3, 0, 0}, true);
+  REQUIRE(longer);
+  for (const double time : times_of(longer->scene, 0))
+    CHECK(std::abs(24 * time - std::round(24 * time)) < 1e-9);
+  CHECK_FALSE(with_keys_moved(scene, keys, {0.01, 0, 0}, true));  // they would meet
+}
+
+TEST_CASE("keys: copies, ease, deletion and mirror images") {
+  const Scene scene = keyed_scene({{0, 1}, {1}});
+  const KeySelection keys{{1, 1}, {2, 1}};
+  const auto copied = with_keys_moved(scene, keys, {1, 0, 2}, false, true);
+  REQUIRE(copied);
+  CHECK(times_of(copied->scene, 0) == Times{0, 1, 3});
+  CHECK(times_of(copied->scene, 1) == Times{1, 3});
+  CHECK(origin(copied->scene.layers[1]->deformation.keyframes[1]) == 1);
+
+  const Scene eased = with_keys_eased(scene, keys, Ease::hold);
+  CHECK(common_ease(eased, keys) == Ease::hold);
+  CHECK_FALSE(common_ease(eased, all_keys(eased)));
+  CHECK(eased.layers[0]->deformation.keyframes[0].ease == Ease::smooth);
+
+  const Scene fewer = without_keys(scene, keys);
+  CHECK(times_of(fewer, 0) == Times{0});
+  CHECK(times_of(fewer, 1).empty());
+
+  const Scene twice = with_keys_mirrored(with_keys_mirrored(scene, keys), keys);
+  CHECK(twice == scene);
+  CHECK_FALSE(with_keys_mirrored(scene, keys) == scene);
+}
+
+TEST_CASE("keys: those of locked and hidden layers cannot be chosen") {
+  Scene scene = keyed_scene({{0, 1}, {1}});
+  Layer second = *scene.layers[1];
+  second.locked = true;
+  scene = with_layer_at(scene, 1, second);
+  CHECK(editable_keys(scene, all_keys(scene)) == KeySelection{{1, 0}, {1, 1}});
+  CHECK(editable_keys(scene, {{1, 0.5}, {7, 1}}).empty());
+  CHECK(span_of(all_keys(scene)) == std::pair(0.0, 1.0));
+  CHECK(layers_of(all_keys(scene)) == 2);
+}
