@@ -21,7 +21,7 @@ nlohmann::ordered_json boxes_of_items() {
 }
 
 nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& parts) {
-  static constexpr const char* kTools[] = {"select",  "pen",   "pin",  "stroke",
+  static constexpr const char* kTools[] = {"select",  "pen",   "pin",   "stroke",
                                            "outline", "angle", "brush", "attach"};
   static constexpr const char* kThemes[] = {"dark", "light", "contrast"};
   const Viewport& view = workspace.display.viewport;

@@ -77,8 +77,7 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind == Handle::Kind::stroke) continue;
     const double here = std::abs(
-        workspace.layer_view().px_at_plane(position_of(deformation, handle, workspace.mode)) -
-        px);
+        workspace.layer_view().px_at_plane(position_of(deformation, handle, workspace.mode)) - px);
     // A pin at the same position as a cage point is drawn on top and picked first.
     if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
       best = handle;

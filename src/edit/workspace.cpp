@@ -140,9 +140,7 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
   playback = {};
   if (changes_closed_layer(scene)) return require_open_layer();
   // A layer stays where it is displayed when what it follows is deleted.
-  const auto placed = [&](int id) {
-    return placement(layer_index(document.scene(), id));
-  };
+  const auto placed = [&](int id) { return placement(layer_index(document.scene(), id)); };
   Shown::Entry entry = shown.entry_of(scene.deformation(), base);
   if (entry.sets_key && !require_pose()) return false;
   if (entry.sets_key) entry.deformation = keyed(std::move(entry.deformation));

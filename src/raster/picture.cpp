@@ -250,8 +250,8 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
   for (size_t i = 0; i < layers_.size(); ++i) {
     LayerMaker& layer = *layers_[i];
     if (!layer.visible() && has_layers(scene_)) continue;
-    const bool is_placed = parent_of(scene_, *scene_.layers[i]) ||
-                           !is_identity(scene_.layers[i]->placement);
+    const bool is_placed =
+        parent_of(scene_, *scene_.layers[i]) || !is_identity(scene_.layers[i]->placement);
     const auto points_at = [&](double time) {
       VectorXc points = layer.extent_at(time, is_placed);
       if (!is_placed) return points;

@@ -123,8 +123,7 @@ RasterResult rasterized(const RasterJob& job) {
     least.top = whole((top_edge - box.top) * scale);
     check_size(box.width() * scale + 1, box.height() * scale + 1);
     least.width = static_cast<int>(std::ceil(box.right * scale - slack)) - least.left;
-    least.height =
-        static_cast<int>(std::ceil((top_edge - box.bottom) * scale - slack)) - least.top;
+    least.height = static_cast<int>(std::ceil((top_edge - box.bottom) * scale - slack)) - least.top;
   }
   double left = least.left, top = least.top, right = least.left + least.width,
          bottom = least.top + least.height;

@@ -19,7 +19,7 @@ struct RasterJob {
   /// outside the rest cage is then drawn by it alone.
   const Mesh* fringe = nullptr;
   std::span<const Complex> fringe_positions;
-  const Image* source = nullptr;       ///< may be null for heat maps and checkers
+  const Image* source = nullptr;  ///< may be null for heat maps and checkers
   View view = View::image;
   Eigen::VectorXd heat;  ///< one value per mesh vertex, for heat views
   HeatScale scale;

@@ -160,8 +160,8 @@ struct Renderer::Objects {
   void draw_surroundings(Placement placement) const {
     if (index_count > 0 && fringe_index_count > 0) {
       color(Coloring::picture);
-      glUniform1i(at("mode"), mode_of(placement == Placement::at_rest ? placement
-                                                                      : Placement::positions));
+      glUniform1i(at("mode"),
+                  mode_of(placement == Placement::at_rest ? placement : Placement::positions));
       glBindVertexArray(fringe_array);
       glDrawElements(GL_TRIANGLES, fringe_index_count, GL_UNSIGNED_INT, nullptr);
       return;
@@ -190,9 +190,9 @@ Renderer::Renderer() {
                                        std::to_string(epoxy_gl_version() % 10));
   gl_ = std::make_unique<Objects>();
   Objects& gl = *gl_;
-  for (GLuint* buffer : {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix,
-                         &gl.controls, &gl.feedback, &gl.ghost, &gl.fringe_rest,
-                         &gl.fringe_position, &gl.fringe_triangles})
+  for (GLuint* buffer :
+       {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix, &gl.controls,
+        &gl.feedback, &gl.ghost, &gl.fringe_rest, &gl.fringe_position, &gl.fringe_triangles})
     glGenBuffers(1, buffer);
   for (GLuint* texture :
        {&gl.picture, &gl.sequential, &gl.diverging, &gl.matrix_texture, &gl.controls_texture})
@@ -236,9 +236,9 @@ Renderer::Renderer() {
 
 Renderer::~Renderer() {
   Objects& gl = *gl_;
-  for (const GLuint buffer : {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix,
-                              gl.controls, gl.feedback, gl.ghost, gl.fringe_rest,
-                              gl.fringe_position, gl.fringe_triangles})
+  for (const GLuint buffer :
+       {gl.rest, gl.position, gl.value, gl.triangles, gl.quad, gl.matrix, gl.controls, gl.feedback,
+        gl.ghost, gl.fringe_rest, gl.fringe_position, gl.fringe_triangles})
     glDeleteBuffers(1, &buffer);
   for (const GLuint texture :
        {gl.picture, gl.sequential, gl.diverging, gl.matrix_texture, gl.controls_texture})
@@ -453,7 +453,8 @@ void Renderer::draw(const RenderFrame& frame) {
     if (picture && frame.content == Content::original) gl.draw_quad();
     return finish(frame);
   }
-  if (picture && frame.view == View::image && !frame.map_alone) gl.draw_surroundings(frame.placement);
+  if (picture && frame.view == View::image && !frame.map_alone)
+    gl.draw_surroundings(frame.placement);
   if (picture) gl.draw_ghosts(frame.ghosts);
   if (gl.index_count > 0 && (picture || frame.view != View::image)) {
     gl.color(frame.view == View::image     ? Coloring::picture

@@ -36,8 +36,8 @@ enum class Content { map, original, nothing };
 struct RenderFrame {
   int window_width = 1, window_height = 1;                                      ///< framebuffer px
   double canvas_left = 0, canvas_top = 0, canvas_width = 1, canvas_height = 1;  ///< framebuffer px
-  Complex center;   ///< plane point at the canvas's center
-  double zoom = 1;  ///< framebuffer px per plane unit
+  Complex center;    ///< plane point at the canvas's center
+  double zoom = 1;   ///< framebuffer px per plane unit
   Complex turn = 1;  ///< rotates the plane around the center; its absolute value is 1
   View view = View::image;
   bool diverging = false;  ///< use the diverging colors for heat maps

@@ -137,9 +137,8 @@ std::string attachment_text(const Scene& scene, size_t layer) {
   const Attachment& to = *scene.layers[layer]->attachment;
   const Deformation& deformation = scene.layers[*parent]->deformation;
   if (to.to == Attachment::To::pin)
-    return "pin " +
-           std::to_string(pin_of(deformation, to.handle) - deformation.pins.data() + 1) + " of " +
-           title;
+    return "pin " + std::to_string(pin_of(deformation, to.handle) - deformation.pins.data() + 1) +
+           " of " + title;
   if (to.to == Attachment::To::stroke)
     return "stroke " +
            std::to_string(stroke_of(deformation, to.handle) - deformation.strokes.data() + 1) +

@@ -66,8 +66,7 @@ std::pair<Attachment, Scene> attachment_to(Scene scene, const AttachmentTarget& 
 /// `parent` where its parent's does. `motion` is that of the new anchor. The parent must not follow
 /// the layer.
 Scene with_attachment(Scene scene, size_t layer, const Attachment& attachment,
-                      const Similarity& placed, const Similarity& parent,
-                      const Similarity& motion);
+                      const Similarity& placed, const Similarity& parent, const Similarity& motion);
 /// The scene with a layer that follows nothing and stays where it lies now.
 Scene detached(Scene scene, size_t layer, const Similarity& placed);
 /// Detaches all layers whose parent, or the parent's pin or stroke, no longer exists. They stay

@@ -1,5 +1,5 @@
-// The outside is meshed like a cage: its outer loop is a box, and its hole is the cut-out. Each hole
-// of the cut-out is one more mesh.
+// The outside is meshed like a cage: its outer loop is a box, and its hole is the cut-out. Each
+// hole of the cut-out is one more mesh.
 #include "scene/fringe.h"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ int largest_alpha(const Image& picture) {
   return largest;
 }
 
-/// The box of the faint pixels outside a polygon, in the plane. Empty if there are none, or if there
-/// are solid ones.
+/// The box of the faint pixels outside a polygon, in the plane. Empty if there are none, or if
+/// there are solid ones.
 Box faint_box(PolygonView polygon, const Image& picture, const std::function<bool()>& keep_going) {
   std::vector<std::pair<Complex, Complex>> edges;
   polygon.for_each_edge([&](Index, Complex a, Complex b) { edges.emplace_back(a, b); });
@@ -42,8 +42,8 @@ Box faint_box(PolygonView polygon, const Image& picture, const std::function<boo
     crossings.clear();
     for (const auto& [a, b] : edges)
       if ((a.imag() <= y) != (b.imag() <= y))
-        crossings.push_back(a.real() + (b.real() - a.real()) * (y - a.imag()) /
-                                           (b.imag() - a.imag()));
+        crossings.push_back(a.real() +
+                            (b.real() - a.real()) * (y - a.imag()) / (b.imag() - a.imag()));
     std::ranges::sort(crossings);
     crossings.push_back(1e300);
     // The outside lies before the first crossing, between the second and the third, and so on.

@@ -65,8 +65,8 @@ std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection&
   };
   bool possible = true;
   MovedKeys result;
-  result.scene = with_each_layer(
-      scene, keys, [&](Deformation deformation, const std::vector<size_t>& chosen) {
+  result.scene =
+      with_each_layer(scene, keys, [&](Deformation deformation, const std::vector<size_t>& chosen) {
         std::vector<Keyframe> moving;
         for (const size_t k : chosen) moving.push_back(deformation.keyframes[k]);
         if (!copies)

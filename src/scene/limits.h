@@ -14,11 +14,11 @@ inline constexpr size_t kMaxPins = 2000, kMaxStrokes = 200;
 inline constexpr size_t kMaxCurvePoints = 20000;  ///< in one stroke or outline
 inline constexpr int kMaxId = 1'000'000'000;      ///< of layers, pins and strokes
 inline constexpr double kMinPlacementScale = 1e-6, kMaxPlacementScale = 1e6;
-inline constexpr double kMaxDabLevel = 10;        ///< powers of ten, in absolute value
-inline constexpr double kMaxCornerTurn = 1e3;     ///< radians: 159 full turns
-inline constexpr double kMaxPinTurn = 1e5;        ///< radians
-inline constexpr int kMaxDepth = 1000;            ///< of a pin, in absolute value
-inline constexpr double kMaxTime = 3600;          ///< seconds
+inline constexpr double kMaxDabLevel = 10;     ///< powers of ten, in absolute value
+inline constexpr double kMaxCornerTurn = 1e3;  ///< radians: 159 full turns
+inline constexpr double kMaxPinTurn = 1e5;     ///< radians
+inline constexpr int kMaxDepth = 1000;         ///< of a pin, in absolute value
+inline constexpr double kMaxTime = 3600;       ///< seconds
 inline constexpr double kMinFrameRate = 1, kMaxFrameRate = 240;  ///< per second
 inline constexpr int kMaxTurns = 150;                            ///< between two keyframes
 inline constexpr size_t kMaxKeyframes = 2000;

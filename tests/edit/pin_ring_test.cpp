@@ -74,15 +74,6 @@ TEST_CASE("Ring: a drag without Ctrl rotates, and keeps the held disk") {
   CHECK(!desk.pin().radius);
 }
 
-TEST_CASE("Ring: methods that hold no disks keep rotating with Ctrl") {
-  RingDesk desk("pins", ToolId::pin);
-  CHECK(!held_radius(desk.deformation(), 1));
-  const Complex at = desk.pin().pose;
-  desk.ctrl_drag(at + desk.ring(), at + std::polar(desk.ring(), 0.5));
-  CHECK(desk.pin().angle.value() == Approx(0.75).margin(0.01));
-  CHECK(!desk.pin().radius);
-}
-
 TEST_CASE("Ring: the radius stays within the size of the cage") {
   RingDesk desk("puppet", ToolId::pin);
   const Complex at = desk.pin().pose;

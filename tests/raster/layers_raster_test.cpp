@@ -282,8 +282,7 @@ namespace {
 /// The blue layer attached to the middle of the red one.
 TwoLayers attached_layers() {
   TwoLayers two;
-  auto [attachment, scene] =
-      attachment_to(two.scene, {0, Attachment::To::place, 0, {30, 20}});
+  auto [attachment, scene] = attachment_to(two.scene, {0, Attachment::To::place, 0, {30, 20}});
   two.scene = with_attachment(std::move(scene), 1, attachment, {}, {}, {});
   return two;
 }

@@ -48,8 +48,8 @@ TEST_CASE("fringe: it covers the faint pixels, and follows similarities exactly"
       for (int column = 0; column < kSize; ++column) {
         const Complex z(column + 0.5, kSize - row - 0.5);
         if (image.at(column, row)[3] == 0) continue;
-        const bool covered = locate(mesh, mesh.vertices, z) ||
-                             locate(fringe->mesh, fringe->mesh.vertices, z);
+        const bool covered =
+            locate(mesh, mesh.vertices, z) || locate(fringe->mesh, fringe->mesh.vertices, z);
         CHECK(covered);
       }
     const Complex factor = std::polar(1.5, 3 * random_complex(random).real()),

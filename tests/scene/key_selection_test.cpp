@@ -67,7 +67,8 @@ TEST_CASE("keys: moving and moving back, stretching and shrinking give the same 
     std::mt19937 random(seed);
     std::vector<Times> times(3);
     for (Times& of_layer : times)
-      for (int i = 0; i < 6; ++i) of_layer.push_back(i + 0.9 * std::abs(random_complex(random).real()));
+      for (int i = 0; i < 6; ++i)
+        of_layer.push_back(i + 0.9 * std::abs(random_complex(random).real()));
     const Scene scene = keyed_scene(times);
     KeySelection keys;
     for (const KeyId& key : all_keys(scene))

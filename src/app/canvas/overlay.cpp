@@ -100,8 +100,8 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     const float radius = static_cast<float>(kRingRadius * workspace.display.handle_px);
     const Pin& pin = workspace.shown.deformation().pins[*gesture.ring];
     if (const auto held = held_radius(workspace.shown.deformation(), *gesture.ring))
-      draw_held_disk(
-          list, at, static_cast<float>(*held * pin.scale * workspace.layer_view().zoom), style);
+      draw_held_disk(list, at, static_cast<float>(*held * pin.scale * workspace.layer_view().zoom),
+                     style);
     draw_ring(list, at, radius, pin, gesture.ring_hovered, style);
   }
 }
@@ -151,8 +151,7 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
     if (!exists(deformation, handle, workspace.mode)) continue;
     if (workspace.tools.drag.soft && (gesture.hover == handle || dragged.size() == 1)) {
       const ImVec2 at = px(workspace, position_of(deformation, handle, workspace.mode));
-      const float r =
-          static_cast<float>(workspace.tools.drag.reach * workspace.layer_view().zoom);
+      const float r = static_cast<float>(workspace.tools.drag.reach * workspace.layer_view().zoom);
       list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);
       list.AddCircle(at, r, style.colors.hover, 96, 1 * s);
     }
@@ -412,8 +411,8 @@ void draw_targets(ImDrawList& list, const std::vector<TargetMark>& targets,
       draw_pin(list, at, Pin{}, false, target.hovered, style);
     } else {
       const float r = 9 * s;
-      for (const auto& [color, width] : {std::pair(style.colors.outline, 4 * s),
-                                         {style.colors.hover, 2 * s}}) {
+      for (const auto& [color, width] :
+           {std::pair(style.colors.outline, 4 * s), {style.colors.hover, 2 * s}}) {
         list.AddCircle(at, r, color, 0, width);
         for (const ImVec2 way : {ImVec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
           list.AddLine({at.x + r * way.x, at.y + r * way.y},

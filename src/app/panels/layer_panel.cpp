@@ -128,11 +128,12 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
     workspace.choose_layer(layer);
     run(workspace.actions.named(attach_id), workspace);
   } else if (flag_button(lock, "lock", state.locked ? icon_named("lock") : icon_named("unlock"),
-                  state.locked ? "Locked. Click to unlock." : "Click to prevent edits.",
-                  state.locked || hovered || edited)) {
+                         state.locked ? "Locked. Click to unlock." : "Click to prevent edits.",
+                         state.locked || hovered || edited)) {
     toggle_flag(&Layer::locked, state.locked ? "Unlock layer" : "Lock layer");
   } else if (flag_button(eye, "shown", state.visible ? icon_named("eye") : icon_named("eye-off"),
-                       state.visible ? "Visible. Click to hide." : "Hidden. Click to show.", true)) {
+                         state.visible ? "Visible. Click to hide." : "Hidden. Click to show.",
+                         true)) {
     toggle_flag(&Layer::visible, state.visible ? "Hide layer" : "Show layer");
   } else if (clicked) {
     workspace.choose_layer(layer);

@@ -301,9 +301,8 @@ void add_key_groups(OptionGroups& groups, Workspace& workspace) {
   for (const auto& [id, label] : {std::pair("time.copy_keys", "Duplicate"),
                                   {"time.mirror_keys", "Mirror"},
                                   {"time.delete_key", "Delete"}})
-    groups.push_back({id, [&workspace, id = id, label = label] {
-                        action_option(id, label, workspace);
-                      }});
+    groups.push_back(
+        {id, [&workspace, id = id, label = label] { action_option(id, label, workspace); }});
 }
 
 /// The icon and name of the bar, and its groups.
@@ -364,9 +363,8 @@ Options options_of(Workspace& workspace) {
     case ToolId::attach:
       options = {icon_named("attach"), "Attach", {}};
       groups.push_back({"what", [] { inline_label("Click what the layer should follow"); }});
-      groups.push_back({"cancel", [&workspace] {
-                          action_option("tool.select", "Cancel", workspace);
-                        }});
+      groups.push_back(
+          {"cancel", [&workspace] { action_option("tool.select", "Cancel", workspace); }});
       break;
     case ToolId::select:
       options = {icon_named("select"), "Select", {}};

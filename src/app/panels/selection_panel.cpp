@@ -166,8 +166,8 @@ void many_handles(Workspace& workspace) {
 /// Moves the selected keyframes as one step, if nothing is in their way.
 void move_keys(Workspace& workspace, const Change& change, const char* step, const TimeMap& map) {
   if (change.changed) {
-    auto moved = with_keys_moved(workspace.document.scene(), workspace.shown.timeline.keys, map,
-                                 false);
+    auto moved =
+        with_keys_moved(workspace.document.scene(), workspace.shown.timeline.keys, map, false);
     if (moved) {
       workspace.commit_or_amend_layers(step, std::move(moved->scene));
       workspace.shown.timeline.keys = std::move(moved->keys);
@@ -198,8 +198,7 @@ void key_rows(Workspace& workspace) {
                       keys.begin()->layer == workspace.document.scene().layer().id;
   double turns = single ? own.keyframes[key].turns : 0;
   ImGui::BeginDisabled(!single);
-  const Change turned = slider_row("Whole turns", turns,
-                                   {.low = -10, .high = 10, .neutral = 0.0},
+  const Change turned = slider_row("Whole turns", turns, {.low = -10, .high = 10, .neutral = 0.0},
                                    "Extra whole turns between the previous keyframe and this one");
   if (turned.changed && single) {
     Deformation after = own;

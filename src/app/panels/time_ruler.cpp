@@ -1,4 +1,5 @@
-// Ticks are at round numbers of seconds. Between them are shorter ticks, at frames if there is room.
+// Ticks are at round numbers of seconds. Between them are shorter ticks, at frames if there is
+// room.
 #include "app/panels/time_ruler.h"
 
 #include <algorithm>
@@ -33,8 +34,8 @@ void TimeRuler::place(const Workspace& workspace, float left, float right, bool 
   right_ = std::max(right, left + 1);
   if (zoomed_ || holds) return;
   start_ = 0;
-  length_ = std::max({2.0, 1.1 * length_of(workspace.document.scene()),
-                      1.02 * workspace.shown.timeline.time});
+  length_ = std::max(
+      {2.0, 1.1 * length_of(workspace.document.scene()), 1.02 * workspace.shown.timeline.time});
 }
 
 void TimeRuler::zoom(double factor, double around) {
@@ -87,8 +88,7 @@ void TimeRuler::draw(ImDrawList& list, const Workspace& workspace, float top, fl
     line(time, px(10), c.muted);
     const float at = x(time);
     if (at < left_ - 1) continue;
-    const std::string seconds = seconds_text(time),
-                      frames = std::to_string(frame_at(scene, time));
+    const std::string seconds = seconds_text(time), frames = std::to_string(frame_at(scene, time));
     const float middle = top + px(4);
     draw_text(list, Type::caption, {at + px(4), middle}, c.muted, seconds);
     draw_text(list, Type::caption, {at + px(12) + text_size(Type::caption, seconds).x, middle},

@@ -59,8 +59,8 @@ void TimelinePanel::draw_numbers(Workspace& workspace) {
   colored_text(theme_colors().muted, length);
   ImGui::SameLine(0, px(8));
   double rate = scene.animation.frames_per_second;
-  const Change change =
-      number_field("##Rate", rate, {kMinFrameRate, kMaxFrameRate, "fps", 0, false, {}, 0.1}, px(76));
+  const Change change = number_field(
+      "##Rate", rate, {kMinFrameRate, kMaxFrameRate, "fps", 0, false, {}, 0.1}, px(76));
   if (change.changed) {
     AnimationSettings settings = scene.animation;
     settings.frames_per_second = rate;

@@ -186,7 +186,8 @@ void TimelineRows::draw_keys(const Workspace& workspace, const Row& row, float m
   const int id = workspace.document.scene().layers[row.layer]->id;
   const KeySelection& chosen = workspace.shown.timeline.keys;
   for (size_t i = 0; i + 1 < row.times.size(); ++i) {
-    const bool both = chosen.contains({id, row.times[i]}) && chosen.contains({id, row.times[i + 1]});
+    const bool both =
+        chosen.contains({id, row.times[i]}) && chosen.contains({id, row.times[i + 1]});
     const bool held = deformation.keyframes[key_at(deformation, row.times[i])].ease == Ease::hold;
     draw_way(list, ruler_.x(row.times[i]), ruler_.x(row.times[i + 1]), middle,
              faded(both ? c.accent : c.edge), held);
@@ -253,8 +254,8 @@ void TimelineRows::press(Workspace& workspace, ImVec2 pointer) {
   const auto key = key_under(workspace, pointer);
   const double time = ruler_.time(pointer.x);
   if (!key && box_.z > box_.x && pointer.y >= box_.y && pointer.y <= box_.w)
-    for (const auto& [x, kind] : {std::pair(box_.x, KeyDrag::Kind::stretch_start),
-                                  {box_.z, KeyDrag::Kind::stretch_end}})
+    for (const auto& [x, kind] :
+         {std::pair(box_.x, KeyDrag::Kind::stretch_start), {box_.z, KeyDrag::Kind::stretch_end}})
       if (std::abs(pointer.x - x) < px(7)) {
         held_ = Held::keys;
         drag_.start(workspace, kind, time);
@@ -334,8 +335,7 @@ void TimelineRows::draw_menu(Workspace& workspace) {
 
 void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
   const ThemeColors& c = theme_colors();
-  const float width = ImGui::GetContentRegionAvail().x,
-              names = std::min(px(kNames), 0.35f * width);
+  const float width = ImGui::GetContentRegionAvail().x, names = std::min(px(kNames), 0.35f * width);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ruler_.place(workspace, corner.x + names + px(kMargin), corner.x + width - px(kMargin),
                held_ != Held::nothing);
@@ -411,8 +411,8 @@ void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
     char text[24];
     std::snprintf(text, sizeof text, "%.2f s", workspace.shown.timeline.time);
     const ImVec2 size = text_size(Type::caption, text);
-    const float left = std::clamp(x - size.x / 2 - px(6), corner.x + names,
-                                  corner.x + width - size.x - px(12));
+    const float left =
+        std::clamp(x - size.x / 2 - px(6), corner.x + names, corner.x + width - size.x - px(12));
     over.AddLine({x, corner.y + px(20)}, {x, corner.y + px(kRuler) + all},
                  faded(shown ? c.text : c.muted), px(1.5));
     over.AddRectFilled({left, corner.y + px(3)}, {left + size.x + px(12), corner.y + px(23)},

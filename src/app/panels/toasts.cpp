@@ -58,8 +58,7 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
     if (toast.where) {
       ImGui::SameLine(0, px(12));
       ImGui::SetCursorPosY(ImGui::GetCursorPosY() - px(4));
-      if (small_button("Show me", ButtonKind::flat))
-        workspace.center_on(*toast.where);
+      if (small_button("Show me", ButtonKind::flat)) workspace.center_on(*toast.where);
       draw_marker(workspace, *toast.where, style);
     }
     y -= ImGui::GetWindowHeight() + px(8);

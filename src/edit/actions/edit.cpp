@@ -20,7 +20,8 @@ bool chosen(const Workspace& w) {
 template <int dx, int dy, int tenths>
 void nudge(Workspace& w) {
   // Up is up on the canvas, also in a layer that another one has rotated.
-  const Complex by = std::conj(w.layer_view().turn) * Complex(dx * tenths / 10.0, dy * tenths / 10.0);
+  const Complex by =
+      std::conj(w.layer_view().turn) * Complex(dx * tenths / 10.0, dy * tenths / 10.0);
   w.commit_or_amend("Nudge", displaced(w.shown.deformation(),
                                        displacements(w.shown.deformation(), w.selection, by, w.mode,
                                                      w.tools.drag),

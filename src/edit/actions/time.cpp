@@ -41,7 +41,8 @@ void duplicate_keys(Workspace& w) {
   for (const double to : {time, std::max(last, time) + frame}) {
     const auto copied = with_keys_moved(scene, keys, {1, first, to}, false, true);
     if (!copied) continue;
-    if (w.commit_layers(for_keys("Copy", keys), copied->scene)) w.shown.timeline.keys = copied->keys;
+    if (w.commit_layers(for_keys("Copy", keys), copied->scene))
+      w.shown.timeline.keys = copied->keys;
     return;
   }
   w.messages.say("There are other keyframes where the copies would be.");

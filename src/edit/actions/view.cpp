@@ -33,8 +33,7 @@ Complex displayed_position(const Workspace& w, const Handle& handle) {
 
 void frame_selection(Workspace& w) {
   Box box;
-  const Similarity placed =
-      w.at_rest() ? Similarity{} : w.placement(w.document.scene().edited);
+  const Similarity placed = w.at_rest() ? Similarity{} : w.placement(w.document.scene().edited);
   for (const Handle& handle : w.selection)
     if (handle.kind == Handle::Kind::stroke)
       for (const Complex& z : curve_of(w.shown.deformation(), handle.index, w.mode))

@@ -94,6 +94,11 @@ Deformation with_all_corners(Deformation deformation) {
   return deformation;
 }
 
+Deformation with_corner_pose(Deformation deformation, Index vertex, const PoseCorner& pose) {
+  corner(deformation, vertex) = pose;
+  return deformation;
+}
+
 Deformation corner_turned(Deformation deformation, Index vertex, double by) {
   PoseCorner& pose = corner(deformation, vertex);
   pose.before += by;

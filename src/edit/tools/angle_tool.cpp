@@ -47,6 +47,7 @@ class AngleTool final : public Tool {
 
   void cancel(Workspace& workspace) override {
     if (dragging_) workspace.shown.preview.reset();
+    if (recording_.active()) recording_.cancel(workspace);
     dragging_ = false;
     marquee_.reset();
     shown_.reset();
@@ -91,15 +92,18 @@ class AngleTool final : public Tool {
              text_of_number(opening * 180 / kPi) + " degrees; hold Shift for steps of 15";
     }
     if (mark_ && mark_->hovered == CornerMark::Region::ring)
-      return "Drag the ring to turn the corner, as many times around as you like";
+      return "Drag the ring to turn the corner, as many times around as you like; Ctrl-drag to "
+             "record "
+             "motion";
     if (mark_ && mark_->hovered != CornerMark::Region::none)
-      return "Drag the arm to open or close the corner";
+      return "Drag the arm to open or close the corner; Ctrl-drag to record motion";
     if (hover_)
       return is_corner(deformation, *hover_)
                  ? "Click to select the corner; Shift-click to select more; Alt-click to make it a "
                    "plain point"
                  : "Click to make this point a corner";
-    if (edge_) return "Drag down to let the edge bend, up to straighten it";
+    if (edge_)
+      return "Drag down to let the edge bend, up to straighten it; Ctrl-drag to record motion";
     return "Click a corner or drag a box to select corners; drag an edge to change its tension";
   }
 
@@ -168,6 +172,7 @@ class AngleTool final : public Tool {
     dragging_ = true;
     start_px_ = last_px_ = input.px;
     turned_ = 0;
+    with_ctrl_ = input.mods.ctrl;
     deformation_ = workspace.shown.deformation();
     corners_ = corners_of(workspace);
     switches_ = !has_method_for(deformation_, MethodUse::corners);
@@ -185,28 +190,53 @@ class AngleTool final : public Tool {
     return input.mods.shift ? std::round(turned_ / kSnap) * kSnap : turned_;
   }
 
-  Deformation changed(const Input& input) {
-    if (!mark_ || mark_->hovered == CornerMark::Region::none) {
+  bool drags_tension() const { return !mark_ || mark_->hovered == CornerMark::Region::none; }
+
+  /// How far the gesture has come: the change of the tension, or an angle.
+  double amount(const Input& input) {
+    return drags_tension() ? (start_px_ - input.px).imag() / kTensionPx : turned(input);
+  }
+
+  /// The edit of the gesture. Corners take the angles that they had at the start, plus the amount.
+  RecordedEdit edit() const {
+    if (drags_tension()) {
       const Index corner = corner_before(deformation_, *edge_);
-      const double up = (start_px_ - input.px).imag() / kTensionPx;
-      return with_tension(deformation_, corner, corner_at(deformation_, corner).tension + up);
+      const auto set = [corner](Deformation deformation, const Deformation& start, Complex up) {
+        return with_tension(std::move(deformation), corner,
+                            corner_at(start, corner).tension + up.real());
+      };
+      return {[set](Deformation deformation) { return set(deformation, deformation, 0); }, set};
     }
-    const double by = turned(input);
+    const bool turns = mark_->hovered == CornerMark::Region::ring;
     // The inside of a counter-clockwise cage is to the left of its edges. Turning the edge that
     // starts at the corner clockwise therefore opens the corner.
     const bool opens_clockwise = (mark_->hovered == CornerMark::Region::after) ==
                                  (signed_area(outline_of(deformation_.rest)) > 0);
-    Deformation deformation = deformation_;
-    for (const Index corner : corners_)
-      deformation = mark_->hovered == CornerMark::Region::ring
-                        ? corner_turned(std::move(deformation), corner, by)
-                        : corner_opened(std::move(deformation), corner, opens_clockwise ? -by : by);
-    return deformation;
+    const auto set = [corners = corners_, turns, opens_clockwise](
+                         Deformation deformation, const Deformation& start, Complex amount) {
+      const double by = amount.real();
+      for (const Index corner : corners) {
+        const PoseCorner before = corner_at(start, corner);
+        deformation = with_corner_pose(std::move(deformation), corner, before);
+        deformation =
+            turns ? corner_turned(std::move(deformation), corner, by)
+                  : corner_opened(std::move(deformation), corner, opens_clockwise ? -by : by);
+      }
+      return deformation;
+    };
+    return {[set](Deformation deformation) { return set(deformation, deformation, 0); }, set};
   }
 
   void follow(const Input& input, Workspace& workspace) {
-    if (workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
-      workspace.shown.preview = changed(input);
+    const bool moves =
+        workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx;
+    if (moves && with_ctrl_ && !recording_.active() &&
+        !recording_.start(workspace, edit(), input.now_ms))
+      return cancel(workspace);
+    if (recording_.active())
+      workspace.shown.preview = recording_.follow(workspace, amount(input), input.now_ms);
+    else if (moves)
+      workspace.shown.preview = edit().set(deformation_, deformation_, amount(input));
     if (input.down && !input.released) {
       if (mark_) {  // drawn at the corner's current position
         const CornerMark::Region hovered = mark_->hovered;
@@ -219,9 +249,9 @@ class AngleTool final : public Tool {
     }
     dragging_ = false;
     shown_.reset();
+    if (recording_.active()) return recording_.finish(workspace);
     if (!workspace.shown.preview) return;
-    const bool tension = !mark_ || mark_->hovered == CornerMark::Region::none;
-    workspace.commit(tension                                      ? "Tension"
+    workspace.commit(drags_tension()                              ? "Tension"
                      : mark_->hovered == CornerMark::Region::ring ? "Turn corner"
                                                                   : "Open corner",
                      *workspace.shown.preview);
@@ -233,7 +263,8 @@ class AngleTool final : public Tool {
   Index clicked_ = -1;
   std::vector<Index> corners_;  ///< the corners that the drag changes
   std::optional<std::pair<Complex, Complex>> marquee_;
-  bool dragging_ = false, switches_ = false;
+  bool dragging_ = false, switches_ = false, with_ctrl_ = false;
+  Recording recording_;
   Complex start_px_, last_px_;
   double turned_ = 0;
   Deformation deformation_;

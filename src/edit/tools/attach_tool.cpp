@@ -91,8 +91,7 @@ class AttachTool final : public Tool {
     return overlay;
   }
   std::string hint(const Workspace& w) const override {
-    const std::string name =
-        title_of_layer(w.document.scene(), w.document.scene().edited);
+    const std::string name = title_of_layer(w.document.scene(), w.document.scene().edited);
     return "Click a pin, a stroke or a place of another layer that " + name +
            " should follow; Escape cancels";
   }

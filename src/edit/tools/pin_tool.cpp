@@ -51,7 +51,7 @@ class PinTool final : public HandleTool {
       return workspace.document.image()
                  ? "Click the picture to set a pin. The first pin also makes the cage"
                  : needs_a_cage(workspace, "Pins need a cage");
-    if (ring_.active() || (ring_.hovered() && !hover_)) return ring_.hint();
+    if (ring_.active() || (ring_.hovered() && !hover_)) return ring_.hint(workspace);
     if (can_hold_rest(workspace) && !drag_.active())
       return "One pin moves the whole picture. Click parts that should stay, or press 'Hold the "
              "rest'";

@@ -11,9 +11,17 @@
 namespace holomorph {
 namespace {
 
-Points positions_in(const Pose& pose) {
+/// The positions of all handles. Rotations, scales and tensions are represented by points at a
+/// distance of `reach`.
+Points positions_in(const Pose& pose, double reach) {
   Points positions = vertices_of(pose.cage);
-  for (const PosePin& pin : pose.pins) positions.push_back(pin.position);
+  for (const PosePin& pin : pose.pins) {
+    positions.push_back(pin.position);
+    positions.push_back(pin.position + std::polar(reach * pin.scale, pin.angle));
+  }
+  for (const PoseCorner& corner : pose.corners)
+    positions.insert(positions.end(), {std::polar(reach, corner.before),
+                                       std::polar(reach, corner.after), reach * corner.tension});
   for (const Points& stroke : pose.strokes)
     positions.insert(positions.end(), stroke.begin(), stroke.end());
   return positions;
@@ -36,6 +44,13 @@ Pose between(Pose a, const Pose& b, double fraction) {
     pin.scale *= std::pow(to.scale / pin.scale, fraction);
     if (pin.turn && to.turn) *pin.turn += fraction * (*to.turn - *pin.turn);
   }
+  for (size_t c = 0; c < a.corners.size(); ++c) {
+    PoseCorner& corner = a.corners[c];
+    const PoseCorner& to = b.corners[c];
+    corner.before += fraction * (to.before - corner.before);
+    corner.after += fraction * (to.after - corner.after);
+    corner.tension += fraction * (to.tension - corner.tension);
+  }
   return a;
 }
 
@@ -51,30 +66,93 @@ bool keeps_degree(const Deformation& deformation, Index segment) {
 
 }  // namespace
 
-bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
+RecordedEdit recorded_rotation(Index pin) {
+  const auto angle_of = [pin](const Deformation& deformation) {
+    return deformation.pins[static_cast<size_t>(pin)].angle.value_or(0);
+  };
+  return {[pin, angle_of](Deformation deformation) {
+            const double angle = angle_of(deformation);
+            return turned(std::move(deformation), pin, angle);
+          },
+          [pin, angle_of](Deformation deformation, const Deformation& start, Complex amount) {
+            return turned(std::move(deformation), pin, angle_of(start) + amount.real());
+          }};
+}
+
+namespace {
+
+/// A deformation with handles at the positions to which they are dragged.
+Deformation with_dragged(Deformation deformation, const Deformation& start, const Selection& what,
+                         const DragOptions& options, Complex by) {
+  const Displacements displacements_by_handle =
+      displacements(start, what, by, EditMode::pose, options);
+  // Moving a vertex moves its tangents, so tangents are placed after the vertices.
+  for (const bool tangents : {false, true})
+    for (const auto& [handle, way] : displacements_by_handle) {
+      if (is_tangent(handle) != tangents || !exists(deformation, handle, EditMode::pose)) continue;
+      if (handle.kind == Handle::Kind::stroke) {
+        Points& pose = deformation.strokes[static_cast<size_t>(handle.index)].pose;
+        pose = curve_of(start, handle.index, EditMode::pose);
+        for (Complex& z : pose) z += way;
+      } else {
+        deformation = placed(std::move(deformation), handle,
+                             position_of(start, handle, EditMode::pose) + way, EditMode::pose);
+      }
+    }
+  return deformation;
+}
+
+}  // namespace
+
+/// Finds whether keyframes play, and whether there is time left.
+bool Recording::begin(Workspace& workspace, double now_ms) {
   if (!workspace.require_pose()) return false;
   start_ = workspace.shown.base();
   if (!workspace.require_keyframe_maps()) return false;
   keyframes_play_ = !start_.keyframes.empty() && workspace.map().motion().plays();
-  what_ = what;
-  drag_options_ = workspace.tools.drag;
-  std::erase_if(what_, [&](const Handle& handle) {
-    return !exists(start_, handle, EditMode::pose) ||
-           (keyframes_play_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
-  });
   start_time_ = workspace.shown.timeline.time;
-  if (what_.empty() || start_time_ >= kMaxTime) {
-    workspace.messages.say(what_.empty()
-                               ? "Not recorded: these tangents do not exist in all keyframes."
-                               : "No time left to record. Go to an earlier time.");
+  start_ms_ = now_ms;
+  if (start_time_ < kMaxTime) return true;
+  workspace.messages.say("No time left to record. Go to an earlier time.");
+  return false;
+}
+
+bool Recording::start(Workspace& workspace, RecordedEdit edit, double now_ms) {
+  if (!begin(workspace, now_ms)) return false;
+  const Pose before = whole_pose_of(start_);
+  start_ = edit.prepare(std::move(start_));
+  if (keyframes_play_ && !fits(start_, before)) {
+    workspace.messages.say("Not recorded: the keyframes have no such corners. Add them first.");
     return false;
   }
-  start_ms_ = now_ms;
+  edit_ = std::move(edit);
+  constexpr double kReachPx = 34;  // the radius of the rings
+  turn_reach_ = kReachPx / workspace.layer_view().zoom;
   const Pose pose = whole_pose_of(dragged(base_at(workspace, start_time_), 0));
-  samples_ = {{start_time_, 0, pose, positions_in(pose)}};
+  samples_ = {{start_time_, 0, pose, positions_in(pose, turn_reach_)}};
   workspace.shown.timeline.playing = false;
   workspace.shown.timeline.recording = true;
   return true;
+}
+
+bool Recording::start(Workspace& workspace, const Selection& what, double now_ms) {
+  if (!begin(workspace, now_ms)) return false;
+  Selection kept = what;
+  std::erase_if(kept, [&](const Handle& handle) {
+    return !exists(start_, handle, EditMode::pose) ||
+           (keyframes_play_ && is_tangent(handle) && !keeps_degree(start_, handle.index));
+  });
+  if (kept.empty()) {
+    workspace.messages.say("Not recorded: these tangents do not exist in all keyframes.");
+    return false;
+  }
+  const DragOptions options = workspace.tools.drag;
+  return start(workspace,
+               {[](Deformation deformation) { return deformation; },
+                [kept, options](Deformation deformation, const Deformation& from, Complex by) {
+                  return with_dragged(std::move(deformation), from, kept, options, by);
+                }},
+               now_ms);
 }
 
 Deformation Recording::base_at(Workspace& workspace, double time) const {
@@ -84,32 +162,13 @@ Deformation Recording::base_at(Workspace& workspace, double time) const {
              : start_;
 }
 
-Deformation Recording::dragged(Deformation deformation, Complex by) const {
-  const Displacements displacements_by_handle =
-      displacements(start_, what_, by, EditMode::pose, drag_options_);
-  // Moving a vertex moves its tangents, so tangents are placed after the vertices.
-  for (const bool tangents : {false, true})
-    for (const auto& [handle, way] : displacements_by_handle) {
-      if (is_tangent(handle) != tangents || !exists(deformation, handle, EditMode::pose)) continue;
-      if (handle.kind == Handle::Kind::stroke) {
-        Points& pose = deformation.strokes[static_cast<size_t>(handle.index)].pose;
-        pose = curve_of(start_, handle.index, EditMode::pose);
-        for (Complex& z : pose) z += way;
-      } else {
-        deformation = placed(std::move(deformation), handle,
-                             position_of(start_, handle, EditMode::pose) + way, EditMode::pose);
-      }
-    }
-  return deformation;
-}
-
 Deformation Recording::follow(Workspace& workspace, Complex by, double now_ms) {
   const double time = std::min(kMaxTime, start_time_ + (now_ms - start_ms_) / 1000);
   Deformation deformation = dragged(base_at(workspace, time), by);
   workspace.shown.timeline.time = time;
   const Pose pose = whole_pose_of(workspace.with_turns(deformation));
   if (time > samples_.back().time) samples_.emplace_back();
-  samples_.back() = {time, by, pose, positions_in(pose)};
+  samples_.back() = {time, by, pose, positions_in(pose, turn_reach_)};
   return deformation;
 }
 
@@ -160,7 +219,7 @@ std::vector<double> Recording::keyframe_times(double tolerance) const {
 void Recording::finish(Workspace& workspace) {
   constexpr double kTolerancePx = 3;
   const Scene& scene = workspace.document.scene();
-  const Deformation before = scene.deformation();
+  const Deformation before = edit_.prepare(scene.deformation());
   const auto at_frame = [&](double time) { return time_of_frame(scene, frame_at(scene, time)); };
   const double end = samples_.back().time;
   if (at_frame(end) <= start_time_) return cancel(workspace);

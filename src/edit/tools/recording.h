@@ -5,8 +5,24 @@
 
 namespace holomorph {
 
+/// What a recorded gesture does to a deformation.
+struct RecordedEdit {
+  /// Makes a deformation ready for the edit, for example by fixing a pin's rotation.
+  std::function<Deformation(Deformation)> prepare;
+  /// Sets the edited handles of a deformation to their poses at the start of the gesture, changed
+  /// by an amount.
+  std::function<Deformation(Deformation deformation, const Deformation& start, Complex amount)> set;
+};
+/// The edit that rotates a pin by the real part of the amount, in radians.
+RecordedEdit recorded_rotation(Index pin);
+
 class Recording {
  public:
+  /// Starts to record a gesture at the workspace's current time. If keyframes play, everything
+  /// that the gesture does not edit keeps moving with them. Otherwise everything else keeps its
+  /// displayed pose. If the edit needs other handles than the keyframes have, shows a toast and
+  /// returns false.
+  bool start(Workspace& workspace, RecordedEdit edit, double now_ms);
   /// Starts at the workspace's current time. If keyframes play, everything except the dragged
   /// handles keeps moving with them. Otherwise everything else keeps its displayed pose. Tangents
   /// of segments whose degree changes with time are left out. If nothing is left to record, shows a
@@ -14,7 +30,8 @@ class Recording {
   bool start(Workspace& workspace, const Selection& what, double now_ms);
   bool active() const { return !samples_.empty(); }
   /// The deformation at the recorded time that corresponds to `now_ms`, with the dragged handles
-  /// displaced by `by` from their positions at the start. Sets the workspace's time to that time.
+  /// displaced by `by` from their positions at the start, or edited by this amount. Sets the
+  /// workspace's time to that time.
   Deformation follow(Workspace& workspace, Complex by, double now_ms);
   /// Sets keyframes with linear easing at whole frames, in one step. It sets only the keyframes
   /// needed to keep all handles within about three window px of their paths. In existing keyframes,
@@ -27,17 +44,19 @@ class Recording {
     double time = 0;
     Complex by;
     Pose pose;
-    Points positions;  ///< positions of all handles
+    Points positions;  ///< of all handles, and points that stand for their rotations
   };
-  /// A deformation with the handles at the positions to which they are dragged.
-  Deformation dragged(Deformation deformation, Complex by) const;
+  bool begin(Workspace& workspace, double now_ms);
+  Deformation dragged(Deformation deformation, Complex by) const {
+    return edit_.set(std::move(deformation), start_, by);
+  }
   Deformation base_at(Workspace& workspace, double time) const;
   RecordedPose sample_at(double time) const;
   std::vector<double> keyframe_times(double tolerance) const;
 
-  Selection what_;
-  DragOptions drag_options_;
-  Deformation start_;  ///< the displayed deformation at the start
+  RecordedEdit edit_;
+  Deformation start_;      ///< the displayed deformation at the start, ready for the edit
+  double turn_reach_ = 0;  ///< plane units at which a rotation counts as a movement
   double start_time_ = 0, start_ms_ = 0;
   bool keyframes_play_ = false;
   std::vector<RecordedPose> samples_;

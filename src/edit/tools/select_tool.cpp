@@ -65,7 +65,7 @@ class SelectTool final : public HandleTool {
              " sets pins that bend it";
     if (drag_.active()) return "Hold Shift to move along one axis";
     if (box_.active() || ((box_.hovered() || box_.inside()) && !hover_)) return box_.hint();
-    if (ring_.active() || (ring_.hovered() && !hover_)) return ring_.hint();
+    if (ring_.active() || (ring_.hovered() && !hover_)) return ring_.hint(workspace);
     if (hover_ && hover_->kind == Handle::Kind::stroke)
       return "Drag to move; Alt-click to delete; the Stroke tool bends and redraws it";
     if (hover_ && hover_->control > 0)
@@ -96,8 +96,8 @@ class SelectTool final : public HandleTool {
     if (!dragged) return;
     const Deformation& deformation = workspace.shown.deformation();
     for (const Handle& handle : handles_of(deformation, workspace.mode))
-      if (box.contains(workspace.layer_view().px_at_plane(
-              position_of(deformation, handle, workspace.mode))))
+      if (box.contains(
+              workspace.layer_view().px_at_plane(position_of(deformation, handle, workspace.mode))))
         workspace.selection.insert(handle);
   }
 

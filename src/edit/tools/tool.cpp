@@ -110,10 +110,9 @@ void PinRing::hover(const Input& input, const Workspace& workspace) {
   };
   hovered_ = near_circle(kRingRadius * workspace.display.handle_px);
   const auto held = held_radius(deformation, *pin_);
-  resizes_ = held && input.mods.ctrl;
-  if (resizes_ &&
-      near_circle(*held * deformation.pins[*pin_].scale * workspace.layer_view().zoom))
-    hovered_ = true;
+  on_disk_ = !hovered_ && held && input.mods.ctrl &&
+             near_circle(*held * deformation.pins[*pin_].scale * workspace.layer_view().zoom);
+  hovered_ = hovered_ || on_disk_;
 }
 
 double PinRing::angle_to(const Input& input, const Workspace& workspace) const {
@@ -130,6 +129,23 @@ void PinRing::start(const Input& input, const Workspace& workspace) {
   start_angle_ = angle_to(input, workspace);
   start_distance_ = distance_to(input, workspace);
   start_deformation_ = workspace.shown.deformation();
+  turned_ = 0;
+  gesture_ = on_disk_ ? Gesture::resize : input.mods.ctrl ? Gesture::undecided : Gesture::rotate;
+}
+
+/// Once the pointer has moved with Ctrl, its direction decides between recording and resizing.
+void PinRing::decide(const Input& input, Workspace& workspace) {
+  constexpr double kDecisionPx = 2 * kDragThresholdPx;
+  if (std::abs(input.px - start_px_) < kDecisionPx) return;
+  const Complex from_pin = start_px_ - center_px(workspace, *pin_),
+                way = (input.px - start_px_) / from_pin;
+  const bool outward = std::abs(way.real()) > std::abs(way.imag());
+  if (outward && held_radius(start_deformation_, *pin_))
+    gesture_ = Gesture::resize;
+  else if (recording_.start(workspace, recorded_rotation(*pin_), input.now_ms))
+    gesture_ = Gesture::record;
+  else
+    cancel(workspace);
 }
 
 Deformation PinRing::rotated(const Input& input, const Workspace& workspace) const {
@@ -144,26 +160,40 @@ Deformation PinRing::rotated(const Input& input, const Workspace& workspace) con
 }
 
 Deformation PinRing::resized(const Input& input, const Workspace& workspace) const {
-  const double px_per_radius =
-      workspace.layer_view().zoom * start_deformation_.pins[*pin_].scale;
+  const double px_per_radius = workspace.layer_view().zoom * start_deformation_.pins[*pin_].scale;
   const double by = (distance_to(input, workspace) - start_distance_) / px_per_radius;
   return with_held_radius(start_deformation_, *pin_, *held_radius(start_deformation_, *pin_) + by);
 }
 
 void PinRing::follow(const Input& input, Workspace& workspace) {
-  if (workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx)
-    workspace.shown.preview = resizes_ ? resized(input, workspace) : rotated(input, workspace);
+  if (gesture_ == Gesture::undecided) decide(input, workspace);
+  if (!active_) return;
+  const bool moved = workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx;
+  if (gesture_ == Gesture::record) {
+    turned_ += std::remainder(angle_to(input, workspace) - start_angle_ - turned_, 2 * kPi);
+    workspace.shown.preview = recording_.follow(workspace, turned_, input.now_ms);
+  } else if (moved && gesture_ == Gesture::resize) {
+    workspace.shown.preview = resized(input, workspace);
+  } else if (moved && gesture_ == Gesture::rotate) {
+    workspace.shown.preview = rotated(input, workspace);
+  }
   if (input.down && !input.released) return;
   active_ = false;
+  if (gesture_ == Gesture::record) return recording_.finish(workspace);
   if (workspace.shown.preview)
-    workspace.commit(resizes_ ? "Resize held disk" : "Rotate pin", *workspace.shown.preview);
+    workspace.commit(gesture_ == Gesture::resize ? "Resize held disk" : "Rotate pin",
+                     *workspace.shown.preview);
 }
 
-std::string PinRing::hint() const {
-  if (resizes_) return "Drag to change the radius of the disk that the pin holds";
+std::string PinRing::hint(const Workspace& workspace) const {
+  if ((active_ && gesture_ == Gesture::resize) || (!active_ && on_disk_))
+    return "Drag to change the radius of the disk that the pin holds";
   if (active_) return "Hold Shift for steps of 15 degrees";
-  return "Drag the ring to rotate the picture around the pin; scroll on it to scale; Ctrl-drag it "
-         "to change the disk it holds";
+  const bool holds = pin_ && held_radius(workspace.shown.deformation(), *pin_);
+  return std::string(
+             "Drag the ring to rotate the picture around the pin; scroll on it to scale; ") +
+         (holds ? "Ctrl-drag around the pin to record, outward to change the disk it holds"
+                : "Ctrl-drag it to record motion");
 }
 
 bool PinRing::scroll(const Input& input, Workspace& workspace) {
@@ -176,6 +206,7 @@ bool PinRing::scroll(const Input& input, Workspace& workspace) {
 
 void PinRing::cancel(Workspace& workspace) {
   if (active_) workspace.shown.preview.reset();
+  if (recording_.active()) recording_.cancel(workspace);
   active_ = false;
 }
 

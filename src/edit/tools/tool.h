@@ -150,8 +150,9 @@ void toggle_corners(Workspace& workspace);
 bool erase_with_alt(const Input& input, Handle handle, Workspace& workspace);
 
 /// The ring around a single selected pin. A drag of the ring rotates the picture around the pin;
-/// the wheel on the ring scales it. A drag with Ctrl, of the ring or of the edge of the held disk,
-/// changes the radius of this disk.
+/// the wheel on the ring scales it. A drag with Ctrl around the pin is recorded as motion. A drag
+/// with Ctrl toward the pin or away from it, or of the edge of the held disk, changes the radius of
+/// this disk.
 class PinRing {
  public:
   /// Determines which pin has the ring and whether the pointer is on it.
@@ -159,7 +160,7 @@ class PinRing {
   bool hovered() const { return hovered_; }
   bool active() const { return active_; }
   /// What a drag of the hovered or active ring does, for the status bar.
-  std::string hint() const;
+  std::string hint(const Workspace& workspace) const;
   std::optional<Index> pin() const { return pin_; }
   void start(const Input& input, const Workspace& workspace);
   /// Follows the pointer and commits on release.
@@ -170,13 +171,19 @@ class PinRing {
   void cancel(Workspace& workspace);
 
  private:
+  enum class Gesture { rotate, resize, record, undecided };
+  void decide(const Input& input, Workspace& workspace);
   double angle_to(const Input& input, const Workspace& workspace) const;
   double distance_to(const Input& input, const Workspace& workspace) const;
   Deformation rotated(const Input& input, const Workspace& workspace) const;
   Deformation resized(const Input& input, const Workspace& workspace) const;
 
   std::optional<Index> pin_;
-  bool hovered_ = false, active_ = false, resizes_ = false;
+  bool hovered_ = false, active_ = false;
+  bool on_disk_ = false;  ///< the pointer is on the edge of the disk, but not on the ring
+  Gesture gesture_ = Gesture::rotate;
+  Recording recording_;
+  double turned_ = 0;  ///< since the start, unwrapped
   Complex start_px_;
   double start_angle_ = 0, start_distance_ = 0;
   Deformation start_deformation_;

@@ -179,9 +179,9 @@ void read_layers(const Reader& reader, Scene& scene) {
     if (item.has("blending")) layer.blending = read_blending(item["blending"]);
     if (item.has("attachment")) layer.attachment = read_attachment(item["attachment"]);
     if (item.has("placement")) layer.placement = read_placement(item["placement"]);
-    layer.extra = item.others({"name", "visible", "locked", "opacity", "blending", "id",
-                               "attachment", "placement"},
-                              kLayerKeys);
+    layer.extra = item.others(
+        {"name", "visible", "locked", "opacity", "blending", "id", "attachment", "placement"},
+        kLayerKeys);
     layers.push_back(std::move(layer));
   }
   set_ids(list, layers);

@@ -60,10 +60,13 @@ struct Stack {
 
 TEST_CASE("The layer under the pointer is the topmost one with a visible pixel there") {
   Stack stack;
-  CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({20, 50})) == 1u);    // both
-  CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({70, 50})) == 0u);    // the upper one is transparent here
-  CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({20, 150})) == 0u);   // beyond the upper one
-  CHECK_FALSE(layer_at(stack.w, stack.w.display.viewport.px_at_plane({150, 150})));  // both are transparent
+  CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({20, 50})) == 1u);  // both
+  CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({70, 50})) ==
+        0u);  // the upper one is transparent here
+  CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({20, 150})) ==
+        0u);  // beyond the upper one
+  CHECK_FALSE(
+      layer_at(stack.w, stack.w.display.viewport.px_at_plane({150, 150})));  // both are transparent
   CHECK_FALSE(layer_at(stack.w, stack.w.display.viewport.px_at_plane({-5, 50})));
   run("layer.visible", stack.w);
   CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({20, 50})) == 0u);
