@@ -18,6 +18,7 @@
 #include "app/panels/panel_focus.h"
 #include "app/panels/panels.h"
 #include "app/panels/start_card.h"
+#include "app/last_picture_view.h"
 #include "app/panels/timeline_panel.h"
 #include "app/panels/toasts.h"
 #include "app/state_file.h"
@@ -117,6 +118,7 @@ class Editor {
       window_.wake();
     if (advance(workspace_.playback, workspace_.map(), now_ms())) window_.wake();
     if (workspace_.shown.timeline.recording) window_.wake();
+    last_picture_.update(workspace_);
     show_whole_map();
     update_title();
     files_.autosave();
@@ -142,6 +144,8 @@ class Editor {
     parts.question = files_.question();
     parts.in_panel = panel_focus_.held();
     parts.moving = moving_;
+    parts.solving = last_picture_.solving();
+    parts.last_picture = last_picture_.shows();
     parts.theme = window_.theme();
     parts.scale = window_.scale();
     parts.slowest_ms = slowest_ms_;
@@ -371,6 +375,7 @@ class Editor {
   void document_replaced() {
     for (const auto& tool : tools_) tool->cancel(workspace_);
     canvas_.forget();
+    last_picture_.opened(workspace_);
     panel_focus_.leave();
     layers_.forget();
     fit_ = opened_ = true;
@@ -392,7 +397,8 @@ class Editor {
                  {window_.framebuffer_width(), window_.framebuffer_height(),
                   static_cast<double>(window_.framebuffer_width()) / window_.width(), colors.canvas,
                   colors.page_a, colors.page_b, static_cast<double>(px(8)),
-                  has_high_contrast() ? 0 : static_cast<double>(px(12)), is_light() ? 0.2f : 0.4f});
+                  has_high_contrast() ? 0 : static_cast<double>(px(12)), is_light() ? 0.2f : 0.4f,
+                  last_picture_.shows()});
   }
 
   void draw_panels(const Input& input, PanelSizes sizes) {
@@ -409,6 +415,7 @@ class Editor {
       answer(draw_welcome(workspace_, preferences_, samples_, files_.recoverable(), thumbnails_,
                           sizes));
     } else {
+      if (last_picture_.shows() || last_picture_.solving()) last_picture_.draw(workspace_);
       draw_overlay(workspace_, current_tool().overlay(), style);
       draw_split_line(workspace_.display, style);
       if (canvas_.edited().heat_values().size() > 0)
@@ -503,6 +510,7 @@ class Editor {
   ComparisonPanel comparison_;
   SurfacePane surface_pane_{[this] { window_.wake(); }};
   TimelinePanel timeline_;
+  LastPictureView last_picture_{[this] { window_.wake(); }};
   LayerPanel layers_;
   Files files_;
   KeysWindow keys_;

@@ -88,6 +88,8 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"slowest_ms", parts.slowest_ms},
       {"slowest_work_ms", parts.slowest_work_ms},
       {"moving", parts.moving},
+      {"solving", parts.solving},
+      {"last_picture", parts.last_picture},
       {"items", boxes_of_items()},
   };
 }

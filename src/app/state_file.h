@@ -24,6 +24,7 @@ struct PartsState {
   double scale = 1;        ///< scale of the interface
   bool exporting = false;  ///< a job, such as an export, is running
   bool moving = false;     ///< a fade or a switch of the interface is moving
+  bool solving = false, last_picture = false;  ///< the sign, or the last picture, is shown
 };
 
 class StateFile {

@@ -12,8 +12,8 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVertices = 3000;  ///< of each mesh
-constexpr double kMargin = 2;    ///< around faint pixels, in pixels
+constexpr int kFringeVertices = 3000;  ///< of each mesh
+constexpr double kMargin = 2;          ///< around faint pixels, in pixels
 
 Polygon boundary_of(const Mesh& mesh) {
   Polygon polygon{{}, mesh.holes};
@@ -66,7 +66,7 @@ Box faint_box(PolygonView polygon, const Image& picture, const std::function<boo
 /// Adds the mesh inside a polygon to the fringe.
 void add_part(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygon& boundary,
               const std::map<std::pair<double, double>, int>& known) {
-  const Mesh part = domain_mesh(inside, {kVertices});
+  const Mesh part = domain_mesh(inside, {kFringeVertices});
   const int base = static_cast<int>(fringe.mesh.vertices.size());
   const Loops loops = mesh.boundary_loops();
   for (const Complex& z : part.vertices) {

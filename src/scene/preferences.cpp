@@ -77,6 +77,10 @@ Path autosave_folder() {
   return in_folder("XDG_STATE_HOME", ".local/state", "autosave");
 }
 
+Path last_picture_folder() {
+  return in_folder("XDG_STATE_HOME", ".local/state", "pictures");
+}
+
 Preferences preferences_of_json(const std::string& text) {
   Preferences preferences;
   constexpr size_t kLargest = 1 << 20;

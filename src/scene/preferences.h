@@ -45,6 +45,9 @@ KeyNames keys_of_json(const std::string& text, const std::string& name);
 
 /// $XDG_STATE_HOME/holomorph/autosave; empty if the user has no home folder.
 Path autosave_folder();
+/// $XDG_STATE_HOME/holomorph/pictures, for the last pictures of scenes; empty if the user has no
+/// home folder.
+Path last_picture_folder();
 /// $XDG_DATA_HOME/holomorph/pasted, for pictures that did not come from a file; empty if the user
 /// has no home folder.
 Path pasted_folder();

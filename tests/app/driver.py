@@ -10,7 +10,7 @@ import time
 class Editor:
     """The editor on its own display, with its own home directory."""
 
-    def __init__(self, program, arguments=(), size="1400x900", home=None):
+    def __init__(self, program, arguments=(), size="1400x900", home=None, settles=True):
         self.folder = tempfile.mkdtemp(prefix="holomorph-gui-")
         self.home = home or self.folder
         if not home:  # hides the first steps, which would cover what tests click on
@@ -34,7 +34,10 @@ class Editor:
         self.log = open(self.folder + "/log", "w")
         self.process = subprocess.Popen([program, *arguments, "--state", self.state_path],
                                         env=self.environment, stdout=self.log, stderr=self.log, cwd=self.folder)
-        self.wait(lambda s: s is not None, "the first frame", 30)
+        if settles:
+            self.wait(lambda s: s is not None, "the first frame", 30)
+        while not settles and self.state() is None:
+            time.sleep(0.005)
 
     def __enter__(self):
         return self

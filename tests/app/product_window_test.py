@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import sys
+import tempfile
 import time
 
 import numpy
@@ -217,6 +218,46 @@ class ProductWindowTest(WindowCase):
             editor.key("Delete")
             editor.wait(lambda s: s["pins"] == len(body["pins"]) - 1, "the deleted pin")
             self.assertNotIn("attachment", self.saved(editor, "frozen.json")["layers"][1])
+
+    def slow_scene(self):
+        """A scene whose first maps take a while: four layers, and a method that solves a nonlinear problem."""
+        scene = load(os.path.join(SOURCE, "assets/gecko.json"))
+        shutil.copy(os.path.join(SOURCE, "assets/gecko.png"), self.work)
+        scene["image"] = {"file": "gecko.png"}
+        layer = {key: scene[key] for key in ("image", "cage", "pins")}
+        layer["method"] = {"id": "har_arap"}
+        scene = {"format": "holomorph", "version": 2, "layers": [layer] * 4}
+        path = os.path.join(self.work, "slow.json")
+        with open(path, "w") as file:
+            json.dump(scene, file)
+        return path
+
+    def test_a_slow_scene_shows_its_last_picture_until_the_first_answer(self):
+        path = self.slow_scene()
+        home = tempfile.mkdtemp(dir=self.work)
+        kept = os.path.join(home, "state", "holomorph", "pictures")
+        with Editor(PROGRAM, [path], home=home) as editor:
+            state = editor.wait(lambda s: s["pictured"] and s["status"] != "none" and not s["last_picture"], "the first answer", 60)
+            end = time.time() + 20
+            while not (os.path.exists(kept) and any(name.endswith(".box") for name in os.listdir(kept))):
+                self.assertLess(time.time(), end, "a picture is kept")
+                time.sleep(0.1)
+            solved = self.screenshot(editor, "solved")
+        with Editor(PROGRAM, [path], home=home, settles=False) as editor:
+            seen, end = None, time.time() + 60
+            while time.time() < end:
+                state = editor.state()
+                if state and state["last_picture"] and state["solving"]:
+                    seen = self.screenshot(editor, "last-picture")
+                    break
+                if state and state["pictured"] and not state["busy"]:
+                    break
+            self.assertIsNotNone(seen, "the last picture is shown while the scene is solved")
+            state = editor.wait(lambda s: not s["solving"] and not s["last_picture"], "the answer", 60)
+            left, top, width, height = (int(state[k]) for k in ("left", "top", "width", "height"))
+            part = (slice(top + 80, top + height), slice(left, left + width))
+            self.assertGreater((seen[part].max(axis=2) > 150).mean(), 0.03, "there is something to see")
+            self.assertLess((numpy.abs(seen[part] - solved[part]).max(axis=2) > 60).mean(), 0.02)
 
 
 if __name__ == "__main__":

@@ -115,6 +115,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
                                  workspace.display.automatic_range);
     drawn.push_back(&layer);
   }
+  if (at.page_alone) drawn.clear();
   // With opacities or blending modes, the page is drawn alone, and the layers are combined away
   // from the window. The page is also drawn alone if its layer has been moved away from it.
   const bool combines = !edited_only && std::ranges::any_of(drawn, [](const Layer* layer) {

@@ -18,6 +18,7 @@ struct CanvasFrame {
   Color background, page_a, page_b;  ///< the canvas and the checkerboard
   double cell = 8, shadow = 0;       ///< width of the cells; softness of the shadow; window px
   float shadow_alpha = 0;
+  bool page_alone = false;  ///< without the layers
 };
 
 /// Tint of an onion skin: blue for a keyframe after the current time (`later`), otherwise orange.

@@ -17,7 +17,7 @@
 namespace holomorph {
 namespace {
 
-constexpr size_t kMostRows = 5;  ///< more rows scroll
+constexpr size_t kMostTimelineRows = 5;  ///< more rows scroll
 constexpr double kRow = 36, kRuler = 28, kNames = 224, kMargin = 16;
 
 /// The parts of a pose that have rows of their own.
@@ -83,7 +83,7 @@ double snapped(const Scene& scene, double time) {
 }  // namespace
 
 float TimelineRows::height(const Workspace& workspace) const {
-  const size_t rows = std::clamp<size_t>(rows_of(workspace).size(), 1, kMostRows);
+  const size_t rows = std::clamp<size_t>(rows_of(workspace).size(), 1, kMostTimelineRows);
   return px(kRuler) + px(kRow) * static_cast<float>(rows);
 }
 

@@ -1,0 +1,159 @@
+// The picture is drawn from the maps that are on the canvas, on another thread.
+#include "app/last_picture_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/canvas/marks.h"
+#include "app/thumbnails.h"
+#include "core/clock.h"
+#include "raster/compose.h"
+#include "raster/raster.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kSlowMs = 300;  ///< scenes that take longer to solve have pictures
+constexpr double kSignMs = 150;  ///< when the sign appears
+constexpr int kLongestSide = 1400;
+
+/// All that is needed to draw a layer on another thread.
+struct DrawnLayer {
+  std::shared_ptr<const Mesh> mesh;
+  VectorXc f;
+  std::shared_ptr<const Image> picture;
+  Similarity placement;
+  LayerInk ink;
+};
+
+bool has_answer(const Workspace& workspace, const Layer& layer) {
+  return !layer.visible || !layer.deformation.has_cage() || workspace.maps.of(layer.id).has_map() ||
+         workspace.maps.of(layer.id).error();
+}
+
+bool has_answers(const Workspace& workspace) {
+  return std::ranges::all_of(workspace.document.scene().layers, [&](const SharedLayer& layer) {
+    return has_answer(workspace, *layer);
+  });
+}
+
+bool is_settled(const Workspace& workspace) {
+  return has_answers(workspace) && !workspace.shown.preview &&
+         std::ranges::none_of(workspace.document.scene().layers, [&](const SharedLayer& layer) {
+           return workspace.maps.of(layer->id).busy();
+         });
+}
+
+LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
+  Box box;
+  for (const DrawnLayer& layer : layers) {
+    const double w = layer.picture->width, h = layer.picture->height;
+    for (const Complex& z : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
+      box.include(layer.placement(z));
+    for (const Complex& z : layer.f) box.include(layer.placement(z));
+  }
+  const double scale = std::min(1.0, kLongestSide / std::max(box.width(), box.height()));
+  std::optional<RasterResult> result;
+  for (const DrawnLayer& layer : layers) {
+    RasterJob job;
+    job.mesh = layer.mesh.get();
+    job.positions = as_span(layer.f);
+    job.source = layer.picture.get();
+    job.placement = layer.placement;
+    job.pixels_per_unit = scale;
+    job.region = box;
+    job.top = box.top;
+    RasterResult drawn = rasterized(job);
+    if (result) {
+      result = composed(std::move(*result), drawn, scale, layer.ink);
+    } else {
+      fade(drawn.image, layer.ink);
+      result = std::move(drawn);
+    }
+  }
+  LastPicture picture;
+  picture.box.include(result->corner);
+  picture.box.include(result->corner + Complex(result->image.width, result->image.height) / scale);
+  picture.image = std::move(result->image);
+  return picture;
+}
+
+}  // namespace
+
+void LastPictureView::opened(const Workspace& workspace) {
+  texture_.reset();
+  waits_ = workspace.shown.own().has_cage();
+  opened_ms_ = now_ms();
+  took_ms_ = 0;
+  kept_step_.reset();
+  if (!waits_) return;
+  hash_ = hash_of(workspace.document.scene());
+  if (auto picture = last_picture_of(hash_)) {
+    texture_.emplace(picture->image.width, picture->image.height, picture->image.pixels.data());
+    box_ = picture->box;
+  }
+}
+
+void LastPictureView::update(const Workspace& workspace) {
+  if (job_ && job_->ended()) job_.reset();
+  if (waits_) {
+    if (has_answers(workspace)) {
+      waits_ = solving_ = false;
+      texture_.reset();
+    } else {
+      solving_ = texture_ || now_ms() - opened_ms_ > kSignMs;
+      if (!solving_) wake_();
+      return;
+    }
+  }
+  const Document& document = workspace.document;
+  if (!is_settled(workspace)) return;
+  if (took_ms_ == 0) took_ms_ = now_ms() - opened_ms_;
+  const size_t step = document.history().index();
+  if (took_ms_ < kSlowMs || kept_step_ == step || document.modified() || job_ ||
+      workspace.at_rest())
+    return;
+  // The next session opens at the start of the timeline.
+  if (workspace.shown.time_of_layers().value_or(0) > 0) return;
+  kept_step_ = step;
+  keep(workspace, hash_of(document.scene()));
+}
+
+void LastPictureView::keep(const Workspace& workspace, std::string hash) {
+  std::vector<DrawnLayer> layers;
+  const Scene& scene = workspace.document.scene();
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = *scene.layers[i];
+    const auto picture = workspace.document.pictures().shared(layer);
+    if (!layer.visible || !picture) continue;
+    const LiveMap& map = workspace.maps.of(layer.id);
+    const bool bent = layer.deformation.has_cage() && map.has_map();
+    layers.push_back({bent ? map.drawn() : nullptr, bent ? map.map().f : VectorXc(), picture,
+                      workspace.placement(i), ink_of(layer)});
+  }
+  if (layers.empty()) return;
+  job_ = std::make_unique<Job>(
+      "Keeping the picture",
+      [layers = std::move(layers), hash = std::move(hash)](Job::Progress& progress) {
+        const LastPicture picture = picture_of(layers);
+        if (!progress.cancelled()) keep_last_picture(hash, picture);
+      },
+      wake_);
+}
+
+void LastPictureView::draw(const Workspace& workspace) const {
+  const Viewport& view = workspace.display.viewport;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 from = vec({view.left, view.top}),
+               to = vec({view.left + view.width, view.top + view.height});
+  if (texture_) {
+    list.PushClipRect(from, to);
+    list.AddImage(reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture_->id())),
+                  vec(view.px_at_plane({box_.left, box_.top})),
+                  vec(view.px_at_plane({box_.right, box_.bottom})));
+    list.PopClipRect();
+  }
+  if (solving_) draw_chip(list, {from.x + px(16), from.y + px(16)}, "Solving");
+}
+
+}  // namespace holomorph
