@@ -12,13 +12,13 @@
 #include "app/dialogs/keys_window.h"
 #include "app/dialogs/palette.h"
 #include "app/files.h"
+#include "app/last_picture_view.h"
 #include "app/look/items.h"
 #include "app/panels/comparison_panel.h"
 #include "app/panels/first_steps.h"
 #include "app/panels/panel_focus.h"
 #include "app/panels/panels.h"
 #include "app/panels/start_card.h"
-#include "app/last_picture_view.h"
 #include "app/panels/timeline_panel.h"
 #include "app/panels/toasts.h"
 #include "app/state_file.h"
@@ -430,6 +430,8 @@ class Editor {
       comparison_.draw(workspace_, style);
       status = status_of(input);
       if (!context.hint.empty()) status.hint = context.hint;
+      if (workspace_.shown.timeline.visible && !timeline_.hint().empty())
+        status.hint = timeline_.hint();
     }
     if (!menus.hint.empty()) status.hint = menus.hint;
     answer(menus);

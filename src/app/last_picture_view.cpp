@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSlowMs = 300;  ///< scenes that take longer to solve have pictures
 constexpr double kSignMs = 150;  ///< when the sign appears
-constexpr int kLongestSide = 1400;
+constexpr int kLongestPictureSide = 1400;
 
 /// All that is needed to draw a layer on another thread.
 struct DrawnLayer {
@@ -52,7 +52,7 @@ LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
       box.include(layer.placement(z));
     for (const Complex& z : layer.f) box.include(layer.placement(z));
   }
-  const double scale = std::min(1.0, kLongestSide / std::max(box.width(), box.height()));
+  const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
   std::optional<RasterResult> result;
   for (const DrawnLayer& layer : layers) {
     RasterJob job;

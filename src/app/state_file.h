@@ -21,9 +21,9 @@ struct PartsState {
   std::string question = {};     ///< title of the question dialog about files
   bool in_panel = false;         ///< a panel has the keyboard focus
   Theme theme = Theme::dark;
-  double scale = 1;        ///< scale of the interface
-  bool exporting = false;  ///< a job, such as an export, is running
-  bool moving = false;     ///< a fade or a switch of the interface is moving
+  double scale = 1;                            ///< scale of the interface
+  bool exporting = false;                      ///< a job, such as an export, is running
+  bool moving = false;                         ///< a fade or a switch of the interface is moving
   bool solving = false, last_picture = false;  ///< the sign, or the last picture, is shown
 };
 

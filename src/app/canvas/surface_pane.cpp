@@ -136,8 +136,8 @@ void SurfacePane::draw(Workspace& workspace, Canvas& canvas, const OverlayStyle&
 
 void SurfacePane::draw_header(Workspace& workspace, float scale) {
   const std::string name = Path(shown_->file).filename().string();
-  const float button = ImGui::GetFrameHeight(), combo = 140 * scale, gap = 8 * scale,
-              right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - button;
+  const float side = ImGui::GetFrameHeight(), combo = 140 * scale, gap = 8 * scale,
+              right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - side;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name.c_str());
   tooltip(shown_->file);
@@ -153,12 +153,11 @@ void SurfacePane::draw_header(Workspace& workspace, float scale) {
   ImGui::PopStyleVar();
   tooltip("Close. View > Surface in space opens it again.");
   if (!one_row) choose_flattening(workspace, ImGui::GetContentRegionAvail().x);
-  if (reading_) ImGui::TextDisabled("Reading the surface...");
+  if (reading_) colored_text(theme_colors().muted, "Reading the surface...");
   if (problem_.empty()) return;
   ImGui::TextWrapped("%s", problem_.c_str());
-  if (is_withheld(workspace) && ImGui::Button("Show it..."))
-    workspace.request = Request::show_withheld;
-  if (flat_ && ImGui::Button("Restore the outline"))
+  if (is_withheld(workspace) && button("Show it...")) workspace.request = Request::show_withheld;
+  if (flat_ && button("Restore the outline"))
     fit_to_outline(workspace, "Restore outline", shown_->flattening);
 }
 

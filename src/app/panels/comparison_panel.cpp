@@ -1,11 +1,13 @@
 // A worker thread fills the rows. The window shows those that are ready.
 #include "app/panels/comparison_panel.h"
 
-#include "app/look/items.h"
+#include "app/look/controls.h"
+#include "app/look/surfaces.h"
 #include "app/panels/panels.h"
 #include "core/compared/isometric_comparison.h"
 #include "core/mesh/mesher.h"
 #include "edit/actions/groups.h"
+#include "edit/actions/icons.h"
 
 namespace holomorph {
 namespace {
@@ -76,26 +78,30 @@ bool ComparisonPanel::draw_window(const Workspace& workspace, const OverlayStyle
   const double middle = workspace.display.viewport.left + workspace.display.viewport.width / 2;
   const float left =
       std::clamp(static_cast<float>(middle) - width / 2, 10.0f, display.x - width - 10);
-  ImGui::SetNextWindowPos({left, display.y - 50 * s}, ImGuiCond_Appearing, {0, 1});
-  ImGui::SetNextWindowSize({width, 10 * ImGui::GetTextLineHeightWithSpacing() + 24 * s},
-                           ImGuiCond_Appearing);
-  ImGui::Begin("Compare methods", &open_,
-               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::SetNextWindowSize({width, 0});
+  begin_floating("Compare methods", {left, display.y - 50 * s}, {0, 1});
+  const ImVec2 at = ImGui::GetCursorPos();
+  {
+    const ScopedFont title(Type::title);
+    ImGui::TextUnformatted("Compare methods");
+  }
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x - px(20));
+  if (icon_button("Close comparison", icon_named("close"), "Close", false, px(28))) open_ = false;
+  ImGui::SetCursorPos({at.x, at.y + px(40)});
   draw_table(style.scale);
-  if (!failure_.empty()) ImGui::TextWrapped("%s", failure_.c_str());
-  ImGui::TextDisabled(
-      "%s", computing_ ? "Computing. Some methods take several seconds..."
-                       : "Click a row to see its map over the picture. The figures are those of a "
-                         "coarse mesh.");
+  if (!failure_.empty()) wrapped_text(failure_);
+  caption(computing_ ? "Computing. Some methods take several seconds..."
+                     : "Click a row to see its map over the picture. The figures are those of a "
+                       "coarse mesh.");
   bool again = false;
   if (workspace.shown.deformation() != *deformation_) {
     ImGui::BeginDisabled(!can_be_compared(workspace.shown.deformation()));
-    again = ImGui::Button("Compare again");
+    again = button("Compare again");
     ImGui::EndDisabled();
     ImGui::SameLine();
-    ImGui::TextDisabled("The scene has changed since.");
+    colored_text(theme_colors().muted, "The scene has changed since.");
   }
-  ImGui::End();
+  end_card();
   draw_map(workspace, style);
   return again;
 }

@@ -40,6 +40,13 @@ double TimelinePanel::height(const Workspace& workspace, const PanelSizes& sizes
   return px(kBar) * (sizes.two_rows ? 2 : 1) + rows_.height(workspace) + 1;
 }
 
+std::string TimelinePanel::hint() const {
+  return rows_.hovered()
+             ? "Drag keys to move them, a bar to stretch; Alt puts keys between frames; "
+               "Ctrl-drag copies; Shift-click selects more"
+             : "";
+}
+
 void TimelinePanel::draw_numbers(Workspace& workspace) {
   const Scene& scene = workspace.document.scene();
   double time = workspace.shown.timeline.time;

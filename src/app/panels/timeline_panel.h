@@ -11,6 +11,8 @@ class TimelinePanel {
  public:
   /// The height that the panel needs, in px.
   double height(const Workspace& workspace, const PanelSizes& sizes) const;
+  /// The status bar's text while the pointer is on keyframes; else empty.
+  std::string hint() const;
   void draw(Workspace& workspace, Thumbnails& thumbnails, const PanelSizes& sizes);
 
  private:

@@ -118,6 +118,7 @@ void TimelineRows::draw_ruler(Workspace& workspace, float names) {
   ImGui::SetCursorScreenPos(at + ImVec2(names, 0));
   ImGui::InvisibleButton("ruler", {std::max(1.0f, width - names), height});
   name_item("ruler");
+  hovered_ = ImGui::IsItemHovered();
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) ruler_.fit();
   if (ImGui::IsItemHovered() && ImGui::GetIO().MouseWheel != 0) {
@@ -362,6 +363,7 @@ void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
   name_item("keys");
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+  hovered_ = hovered_ || hovered || active;
   if (hovered && ImGui::IsMouseClicked(1)) {
     if (const auto key = key_under(workspace, pointer)) {
       if (!workspace.shown.timeline.keys.contains(*key)) workspace.shown.timeline.keys = {*key};

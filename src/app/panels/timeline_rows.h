@@ -15,6 +15,8 @@ class TimelineRows {
   float height(const Workspace& workspace) const;
   void draw(Workspace& workspace, Thumbnails& thumbnails);
   TimeRuler& ruler() { return ruler_; }
+  /// Whether the pointer is on the ruler or on the keyframes.
+  bool hovered() const { return hovered_; }
 
  private:
   enum class Held { nothing, time, keys, box };
@@ -43,7 +45,7 @@ class TimelineRows {
   ImVec4 box_{};   ///< around the selected keyframes; empty if there is none
   Held held_ = Held::nothing;
   ImVec2 pressed_{};
-  bool moved_ = false;
+  bool moved_ = false, hovered_ = false;
   KeySelection before_box_;
   KeyDrag drag_;
 };
