@@ -128,7 +128,7 @@ class Editor {
     ImGui::Render();
     window_.end_frame();
     moving_ = take_motion();
-    if (moving_) window_.wake();
+    if (moving_ || timeline_.take_growth()) window_.wake();
     if (state_file_) write_state();
   }
 
@@ -231,7 +231,7 @@ class Editor {
     const bool holds = key_focus(window_focus()) == KeyFocus::canvas;
     menu_was_open_ = has_popup();
     workspace_.display.hide_overlays = holds && is_held("hold.overlays");
-    workspace_.display.show_original = holds && is_held("hold.original");
+    workspace_.display.show_original = holds && is_held("hold.original") && !current_tool().busy();
     window_.set_alt_override(holds && is_held("hold.alt"));
   }
 

@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "raster/compose.h"
 #include "raster/raster.h"
+#include "scene/fringe.h"
 
 namespace holomorph {
 namespace {
@@ -29,6 +30,16 @@ struct DrawnLayer {
 bool has_answer(const Workspace& workspace, const Layer& layer) {
   return !layer.visible || !layer.deformation.has_cage() || workspace.maps.of(layer.id).has_map() ||
          workspace.maps.of(layer.id).error();
+}
+
+/// The time in which the displayed maps were prepared and solved.
+double solve_milliseconds(const Workspace& workspace) {
+  double sum = 0;
+  for (const SharedLayer& layer : workspace.document.scene().layers) {
+    const LiveMap& map = workspace.maps.of(layer->id);
+    if (map.has_map()) sum += map.prepared()->milliseconds + map.pose_milliseconds();
+  }
+  return sum;
 }
 
 bool has_answers(const Workspace& workspace) {
@@ -58,6 +69,10 @@ LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
     RasterJob job;
     job.mesh = layer.mesh.get();
     job.positions = as_span(layer.f);
+    const auto fringe = layer.mesh ? fringe_of(*layer.mesh, *layer.picture) : nullptr;
+    const Points around = fringe ? fringe->positions(as_span(layer.f)) : Points();
+    if (fringe) job.fringe = &fringe->mesh;
+    job.fringe_positions = around;
     job.source = layer.picture.get();
     job.placement = layer.placement;
     job.pixels_per_unit = scale;
@@ -82,13 +97,14 @@ LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
 
 void LastPictureView::opened(const Workspace& workspace) {
   texture_.reset();
-  waits_ = workspace.shown.own().has_cage();
+  const auto& layers = workspace.document.scene().layers;
+  waits_ = std::ranges::any_of(
+      layers, [](const SharedLayer& layer) { return layer->deformation.has_cage(); });
   opened_ms_ = now_ms();
   took_ms_ = 0;
   kept_step_.reset();
   if (!waits_) return;
-  hash_ = hash_of(workspace.document.scene());
-  if (auto picture = last_picture_of(hash_)) {
+  if (auto picture = last_picture_of(hash_of(workspace.document.scene()))) {
     texture_.emplace(picture->image.width, picture->image.height, picture->image.pixels.data());
     box_ = picture->box;
   }
@@ -110,9 +126,8 @@ void LastPictureView::update(const Workspace& workspace) {
   if (!is_settled(workspace)) return;
   if (took_ms_ == 0) took_ms_ = now_ms() - opened_ms_;
   const size_t step = document.history().index();
-  if (took_ms_ < kSlowMs || kept_step_ == step || document.modified() || job_ ||
-      workspace.at_rest())
-    return;
+  const bool slow = std::max(took_ms_, solve_milliseconds(workspace)) >= kSlowMs;
+  if (!slow || kept_step_ == step || document.modified() || job_ || workspace.at_rest()) return;
   // The next session opens at the start of the timeline.
   if (workspace.shown.time_of_layers().value_or(0) > 0) return;
   kept_step_ = step;

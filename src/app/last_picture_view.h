@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <functional>
-#include <mutex>
 
 #include "edit/workspace.h"
 #include "render/texture.h"
@@ -25,7 +24,7 @@ class LastPictureView {
   void update(const Workspace& workspace);
   /// Whether a picture takes the place of the layers.
   bool shows() const { return texture_.has_value(); }
-  /// Whether the first answer is awaited for so long that a sign says so.
+  /// Whether the sign "Solving" is shown.
   bool solving() const { return solving_; }
   /// Draws the picture, or the sign, over the canvas.
   void draw(const Workspace& workspace) const;
@@ -34,7 +33,6 @@ class LastPictureView {
   void keep(const Workspace& workspace, std::string hash);
 
   std::function<void()> wake_;
-  std::string hash_;  ///< of the opened or saved scene; empty before the first one
   bool waits_ = false, solving_ = false;
   double opened_ms_ = 0, took_ms_ = 0;
   std::optional<size_t> kept_step_;  ///< the undo step whose picture was kept

@@ -57,8 +57,8 @@ Box content_box(const Workspace& workspace) {
   };
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
-    if (i == scene.edited || !layer.visible) continue;
-    placed = workspace.placement(i);
+    if (i == scene.edited || !layer.visible || workspace.mode == EditMode::rest) continue;
+    placed = at_rest ? Similarity{} : workspace.placement(i);
     include(resting_box(layer.deformation.rest, workspace.document.pictures().of(layer)));
     include_map(workspace.maps.of(layer.id));
   }

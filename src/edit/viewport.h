@@ -22,6 +22,12 @@ struct Viewport {
   }
   /// The vector in the plane that is displayed as this one, in window px.
   Complex plane_vector(Complex px) const { return std::conj(px * turn) / zoom; }
+  /// The part of a vector in the plane along the nearer axis of the canvas.
+  Complex along_axis(Complex z) const {
+    const Complex seen = turn * z;
+    const bool across = std::abs(seen.real()) > std::abs(seen.imag());
+    return std::conj(turn) * (across ? Complex(seen.real(), 0) : Complex(0, seen.imag()));
+  }
   /// The same view of the plane of a layer with this placement.
   Viewport of_layer(const Similarity& placement) const {
     Viewport view = *this;

@@ -44,7 +44,9 @@ bool Workspace::shows_outline() const {
 }
 
 bool Workspace::accepts(const Scene& scene) {
-  if (!scene.deformation().has_cage() || scene == document.scene()) return true;
+  const bool has_cage = std::ranges::any_of(
+      scene.layers, [](const SharedLayer& layer) { return layer->deformation.has_cage(); });
+  if (!has_cage || scene == document.scene()) return true;
   try {
     check_scene(scene);
   } catch (const Error& error) {
@@ -113,6 +115,16 @@ bool Workspace::require_open_layer() {
   return !layer.locked && layer.visible;
 }
 
+bool Workspace::require_placements() {
+  const Scene& scene = document.scene();
+  for (size_t i = 0; i < scene.layers.size(); ++i)
+    if (!maps.knows_placement(scene, i)) {
+      messages.say("A layer that others follow is being prepared. Try again in a moment.");
+      return false;
+    }
+  return true;
+}
+
 bool Workspace::require_keyframe_maps() {
   if (shown.own().keyframes.empty() || !map().has_map() || map().error() || map().follow_keys())
     return true;
@@ -146,7 +158,9 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
   if (entry.sets_key) entry.deformation = keyed(std::move(entry.deformation));
   if (entry.deformation != scene.deformation())
     scene = with_deformation(std::move(scene), entry.deformation);
-  scene = without_lost_parents(std::move(scene), placed);
+  Scene kept = without_lost_parents(scene, placed);
+  if (kept != scene && !require_placements()) return false;
+  scene = std::move(kept);
   if (!accepts(scene)) return false;
   if (entry.sets_key)
     shown.timeline.visible = shown.timeline.active = true;
@@ -254,23 +268,27 @@ bool Workspace::update_map(EvalOptions options) {
 
 bool Workspace::continues_step(const std::string& label) const {
   const History& history = document.history();
-  return mergeable_selection_ == selection && mode == EditMode::pose && history.can_undo() &&
+  return mergeable_selection_ == selection && history.can_undo() &&
          history.entries()[history.index()].label == label;
 }
 
 void Workspace::commit_or_amend(const std::string& label, Deformation deformation, EditBase base) {
-  if (continues_step(label))
+  if (continues_step(label) && mode == EditMode::pose)
     amend(std::move(deformation), base);
   else if (commit(label, std::move(deformation), base))
     mergeable_selection_ = selection;
 }
 
-void Workspace::commit_or_amend_layers(const std::string& label, Scene scene) {
-  if (continues_step(label))
-    enter(std::move(scene), EditBase::document,
-          [&](Scene entered) { document.amend(std::move(entered)); });
-  else if (commit_layers(label, std::move(scene)))
-    mergeable_selection_ = selection;
+bool Workspace::amend_layers(Scene scene) {
+  return enter(std::move(scene), EditBase::document,
+               [&](Scene entered) { document.amend(std::move(entered)); });
+}
+
+bool Workspace::commit_or_amend_layers(const std::string& label, Scene scene) {
+  if (continues_step(label)) return amend_layers(std::move(scene));
+  if (!commit_layers(label, std::move(scene))) return false;
+  mergeable_selection_ = selection;
+  return true;
 }
 
 void Workspace::go_to(size_t entry) {

@@ -152,13 +152,19 @@ struct Workspace {
                        EditBase base = EditBase::shown);
   /// Adds an undo step that changes layers, or settings that all layers share.
   bool commit_layers(const std::string& label, Scene scene);
-  /// Like commit_or_amend, for layers.
-  void commit_or_amend_layers(const std::string& label, Scene scene);
+  /// Replaces the result of the last undo step, which changed layers. Rejects the same scenes as
+  /// commit_layers.
+  bool amend_layers(Scene scene);
+  /// Like commit_or_amend, for layers. Returns whether the scene was accepted.
+  bool commit_or_amend_layers(const std::string& label, Scene scene);
   /// Makes the next commit_or_amend a separate step.
   void end_mergeable_step() { mergeable_selection_.reset(); }
 
   /// Whether the edited layer is visible and not locked. If not, a toast says so.
   bool require_open_layer();
+  /// Whether the places of all attached layers are known. If not, a toast says that the layers
+  /// that they follow are being prepared.
+  bool require_placements();
   /// Whether the displayed pose is known. If not, a toast says that it is being prepared.
   bool require_pose();
   /// Whether the maps at keyframes are known, or cannot be. If not, a toast says that they are

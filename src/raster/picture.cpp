@@ -44,17 +44,19 @@ class PictureMaker::LayerMaker {
     if (!source_ && options.view == View::image)
       throw Error(ErrorKind::bad_input,
                   "the scene has no picture; choose the view checker, angle, area or stretch");
-    const SampledMap map = map_at(options.time, is_heat(options.view));
     if (is_heat(options.view)) {
+      const SampledMap map = map_at(options.time, true);
       job.heat = heat_values(options.view, distortion_of(map));
       job.scale = heat_scale(options.view, job.heat, options.automatic_range);
+      positions_.emplace(options.time, map.f);
     }
+    const VectorXc& f = positions_at(options.time);
     if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, depths_of(deformation_));
     job.mesh = drawn_.get();
-    job.positions = as_span(map.f);
+    job.positions = as_span(f);
     Points around;
     if (const Fringe* fringe = this->fringe()) {
-      around = fringe->positions(as_span(map.f));
+      around = fringe->positions(as_span(f));
       job.fringe = &fringe->mesh;
       job.fringe_positions = around;
     }
@@ -69,14 +71,18 @@ class PictureMaker::LayerMaker {
   /// How the layer moves what is attached to it.
   Similarity motion(const std::optional<double>& time, const Attachment& attachment) {
     if (!deformation_.has_cage()) return {};
-    const SampledMap map = map_at(time, false);
-    return Anchor(prepared_->mesh, deformation_, attachment).motion(as_span(map.f));
+    const VectorXc& f = positions_at(time);
+    auto known = std::ranges::find(anchors_, attachment, &std::pair<Attachment, Anchor>::first);
+    if (known == anchors_.end())
+      known =
+          anchors_.insert(known, {attachment, Anchor(prepared_->mesh, deformation_, attachment)});
+    return known->second.motion(as_span(f));
   }
 
   /// The intervals between the keys that play.
   std::vector<Motion::KeyInterval> key_intervals() {
-    if (!deformation_.has_cage()) return {};
-    map_at(0.0, false);
+    if (deformation_.keyframes.empty() || !deformation_.has_cage()) return {};
+    positions_at(0.0);
     return motion_.key_intervals();
   }
   /// How many pieces of an interval are short enough to estimate how paths bend: each turns by at
@@ -91,7 +97,7 @@ class PictureMaker::LayerMaker {
   /// What determines the extent of the layer at a time, in its own plane: the positions of the
   /// mesh, and the corners of the picture if it moves as a whole.
   VectorXc extent_at(double time, bool with_picture) {
-    VectorXc points = deformation_.has_cage() ? map_at(time, false).f : VectorXc();
+    VectorXc points = deformation_.has_cage() ? positions_at(time) : VectorXc();
     if (const Fringe* fringe = this->fringe()) {
       const Points around = fringe->positions(as_span(points));
       const Index count = points.size();
@@ -105,13 +111,22 @@ class PictureMaker::LayerMaker {
     points.tail(4) << Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h);
     return points;
   }
-  void include_picture(Box& box) const {
+  void include_picture(Box& box, const Similarity& placement) const {
     if (!source_) return;
-    box.include(0);
-    box.include({static_cast<double>(source_->width), static_cast<double>(source_->height)});
+    const double w = source_->width, h = source_->height;
+    for (const Complex& z : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
+      box.include(placement(z));
   }
 
  private:
+  /// The map without derivatives. Layers that follow this one ask for the same time again, and
+  /// without keyframes, all times have the same map.
+  const VectorXc& positions_at(std::optional<double> time) {
+    if (deformation_.keyframes.empty()) time.reset();
+    if (!positions_ || positions_->first != time) positions_.emplace(time, map_at(time, false).f);
+    return positions_->second;
+  }
+
   RasterJob job_of(const PictureOptions& options, double top) const {
     RasterJob job;
     job.source = source_;
@@ -148,6 +163,8 @@ class PictureMaker::LayerMaker {
   std::shared_ptr<const Mesh> drawn_;
   std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
   Motion motion_;
+  std::optional<std::pair<std::optional<double>, VectorXc>> positions_;  ///< of the last time
+  std::vector<std::pair<Attachment, Anchor>> anchors_;
 };
 
 PictureMaker::PictureMaker(const Scene& scene, const Image* source, const Pictures& other_pictures)
@@ -164,8 +181,9 @@ PictureMaker::~PictureMaker() = default;
 
 Box PictureMaker::rectangle() const {
   Box box;
-  for (const auto& layer : layers_)
-    if (box.empty() && layer->visible()) layer->include_picture(box);
+  for (size_t i = 0; i < layers_.size(); ++i)
+    if (box.empty() && layers_[i]->visible())
+      layers_[i]->include_picture(box, scene_.layers[i]->placement);
   return box;
 }
 
@@ -245,13 +263,15 @@ std::vector<MotionPart> PictureMaker::motion_parts(size_t layer) {
 
 std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep_going) {
   Box box;
-  for (const auto& layer : layers_)
-    if (layer->visible()) layer->include_picture(box);
+  const auto is_moved = [&](size_t i) {
+    return parent_of(scene_, *scene_.layers[i]) || !is_identity(scene_.layers[i]->placement);
+  };
+  for (size_t i = 0; i < layers_.size(); ++i)
+    if (layers_[i]->visible() && !is_moved(i)) layers_[i]->include_picture(box, {});
   for (size_t i = 0; i < layers_.size(); ++i) {
     LayerMaker& layer = *layers_[i];
     if (!layer.visible() && has_layers(scene_)) continue;
-    const bool is_placed =
-        parent_of(scene_, *scene_.layers[i]) || !is_identity(scene_.layers[i]->placement);
+    const bool is_placed = is_moved(i);
     const auto points_at = [&](double time) {
       VectorXc points = layer.extent_at(time, is_placed);
       if (!is_placed) return points;

@@ -49,11 +49,11 @@ Location location_near(const Mesh& mesh, Complex z) {
 template <class Handle>
 int id_of(std::vector<Handle>& handles, size_t index) {
   check(index < handles.size(), "attachment_to: the handle exists");
-  int last = 0;
-  for (const Handle& each : handles) last = std::max(last, each.id);
   int& id = handles[index].id;
-  if (id == 0) id = last + 1;
-  return id;
+  if (id > 0) return id;
+  int free = 1;
+  while (std::ranges::find(handles, free, &Handle::id) != handles.end()) ++free;
+  return id = free;
 }
 
 }  // namespace
@@ -82,9 +82,9 @@ bool may_follow_any(const Scene& scene, size_t layer) {
   return false;
 }
 
-bool carries_visible(const Scene& scene, size_t layer) {
+bool carries_others(const Scene& scene, size_t layer) {
   for (size_t i = 0; i < scene.layers.size(); ++i)
-    if (i != layer && scene.layers[i]->visible && follows(scene, i, layer)) return true;
+    if (i != layer && follows(scene, i, layer)) return true;
   return false;
 }
 

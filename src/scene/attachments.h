@@ -16,8 +16,8 @@ std::optional<size_t> parent_of(const Scene& scene, const Layer& layer);
 bool follows(const Scene& scene, size_t layer, size_t other);
 /// Whether there is a layer that another one may follow.
 bool may_follow_any(const Scene& scene, size_t layer);
-/// Whether any layer that is drawn follows the layer with this index.
-bool carries_visible(const Scene& scene, size_t layer);
+/// Whether any other layer follows the layer with this index.
+bool carries_others(const Scene& scene, size_t layer);
 /// Throws Error if a layer is attached to something that does not exist, or to itself through
 /// other layers.
 void check_attachments(const Scene& scene);
@@ -70,7 +70,7 @@ Scene with_attachment(Scene scene, size_t layer, const Attachment& attachment,
 /// The scene with a layer that follows nothing and stays where it lies now.
 Scene detached(Scene scene, size_t layer, const Similarity& placed);
 /// Detaches all layers whose parent, or the parent's pin or stroke, no longer exists. They stay
-/// where they lay: `placed` tells where, for ids of layers.
+/// where they lay; `placed` gives the placement of a layer by its id.
 Scene without_lost_parents(Scene scene, const std::function<Similarity(int id)>& placed);
 
 }  // namespace holomorph

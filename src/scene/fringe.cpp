@@ -89,6 +89,47 @@ void add_part(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygo
   }
 }
 
+/// Whether a pixel with some alpha lies in the box of a triangle, or next to it.
+bool shows_something(const Image& picture, const std::array<Complex, 3>& corners) {
+  Box box;
+  for (const Complex& z : corners) box.include(z);
+  const auto clamped = [](double value, int size) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+  };
+  const int left = clamped(std::floor(box.left) - 1, picture.width),
+            right = clamped(std::ceil(box.right) + 1, picture.width),
+            top = clamped(std::floor(picture.height - box.top) - 1, picture.height),
+            bottom = clamped(std::ceil(picture.height - box.bottom) + 1, picture.height);
+  for (int row = top; row < bottom; ++row)
+    for (int column = left; column < right; ++column)
+      if (picture.at(column, row)[3] > 0) return true;
+  return false;
+}
+
+/// Removes the triangles that show nothing, and their vertices. Where the cage moves far, they
+/// would be drawn out far.
+void remove_empty(Fringe& fringe, const Image& picture) {
+  const auto at = [&](int vertex) { return fringe.mesh.vertices[static_cast<size_t>(vertex)]; };
+  std::erase_if(fringe.mesh.triangles, [&](const Triangle& t) {
+    return !shows_something(picture, {at(t[0]), at(t[1]), at(t[2])});
+  });
+  std::vector<int> number(fringe.mesh.vertices.size(), -1);
+  Points vertices;
+  std::vector<Fringe::Follower> followers;
+  for (Triangle& t : fringe.mesh.triangles)
+    for (int& corner : t) {
+      int& there = number[static_cast<size_t>(corner)];
+      if (there < 0) {
+        there = static_cast<int>(vertices.size());
+        vertices.push_back(at(corner));
+        followers.push_back(fringe.followers[static_cast<size_t>(corner)]);
+      }
+      corner = there;
+    }
+  fringe.mesh.vertices = std::move(vertices);
+  fringe.followers = std::move(followers);
+}
+
 }  // namespace
 
 Points Fringe::positions(std::span<const Complex> f) const {
@@ -130,6 +171,7 @@ std::shared_ptr<const Fringe> fringe_of(const Mesh& mesh, const Image& picture,
   } catch (const Error&) {
     return nullptr;  // such a boundary has no mesh around it
   }
+  remove_empty(*fringe, picture);
   return keep_going() ? fringe : nullptr;
 }
 

@@ -1,4 +1,4 @@
-// What is faintly visible around a cut-out: shadows, glows and soft edges outside its cage.
+// The faint surroundings of a cut-out: shadows, glows and soft edges outside its cage.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace holomorph {
 
-/// A mesh around a cut-out, whose vertices go along with the nearest edge of the cage's boundary.
+/// A mesh around a cut-out. Its vertices follow the nearest edge of the cage's boundary.
 struct Fringe {
   /// A vertex a + t (b - a), where a and b are vertices of the cut-out's mesh.
   struct Follower {

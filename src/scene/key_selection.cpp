@@ -50,18 +50,13 @@ std::pair<double, double> span_of(const KeySelection& keys) {
   return {first->time, last->time};
 }
 
-size_t layers_of(const KeySelection& keys) {
-  std::set<int> layers;
-  for (const KeyId& key : keys) layers.insert(key.layer);
-  return layers.size();
-}
-
-std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection& keys,
-                                         const TimeMap& map, bool to_frames, bool copies) {
+std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection& selected,
+                                         const TimeMap& map, KeyMove how) {
+  const KeySelection keys = editable_keys(scene, selected);
   const double rate = scene.animation.frames_per_second;
   const auto moved = [&](double time) {
     const double to = map(time);
-    return to_frames ? std::round(to * rate) / rate : to;
+    return how.to_frames ? std::round(to * rate) / rate : to;
   };
   bool possible = true;
   MovedKeys result;
@@ -69,7 +64,7 @@ std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection&
       with_each_layer(scene, keys, [&](Deformation deformation, const std::vector<size_t>& chosen) {
         std::vector<Keyframe> moving;
         for (const size_t k : chosen) moving.push_back(deformation.keyframes[k]);
-        if (!copies)
+        if (!how.copies)
           for (size_t i = chosen.size(); i-- > 0;)
             deformation = without_key(std::move(deformation), chosen[i]);
         for (Keyframe& key : moving) {
@@ -84,8 +79,7 @@ std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection&
         return deformation;
       });
   if (!possible) return {};
-  for (const KeyId& key : editable_keys(scene, keys))
-    result.keys.insert({key.layer, moved(key.time)});
+  for (const KeyId& key : keys) result.keys.insert({key.layer, moved(key.time)});
   return result;
 }
 

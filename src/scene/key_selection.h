@@ -28,17 +28,19 @@ KeySelection all_keys(const Scene& scene);
 KeySelection editable_keys(const Scene& scene, const KeySelection& keys);
 /// The first and last time of a selection, which must not be empty.
 std::pair<double, double> span_of(const KeySelection& keys);
-/// How many layers a selection has keyframes of.
-size_t layers_of(const KeySelection& keys);
 
 struct MovedKeys {
   Scene scene;
   KeySelection keys;  ///< where they are now
 };
-/// Moves keyframes in time, or copies them. Times are rounded to whole frames if `to_frames` is
-/// set. None if a keyframe would leave the allowed range or meet another one.
+struct KeyMove {
+  bool to_frames = false;  ///< round the new times to whole frames
+  bool copies = false;     ///< the keyframes also stay where they were
+};
+/// Moves the editable keyframes of a selection in time. None if one would leave the allowed range
+/// or meet another one.
 std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection& keys,
-                                         const TimeMap& map, bool to_frames, bool copies = false);
+                                         const TimeMap& map, KeyMove how = {});
 Scene with_keys_eased(Scene scene, const KeySelection& keys, Ease ease);
 Scene without_keys(Scene scene, const KeySelection& keys);
 /// Mirrors the poses of keyframes. Throws Error like mirrored().

@@ -41,11 +41,15 @@ void forget_oldest() {
 }  // namespace
 
 std::string hash_of(const Scene& scene) {
-  return sha256_hex(json_of(scene));
+  try {
+    return sha256_hex(json_of(scene));
+  } catch (const Error&) {  // a file name that is not UTF-8
+    return "";
+  }
 }
 
 std::optional<LastPicture> last_picture_of(const std::string& hash) {
-  if (last_picture_folder().empty()) return {};
+  if (hash.empty() || last_picture_folder().empty()) return {};
   constexpr size_t kLongest = 200, kLargest = size_t{1} << 25;
   LastPicture picture;
   try {
@@ -63,7 +67,7 @@ std::optional<LastPicture> last_picture_of(const std::string& hash) {
 }
 
 void keep_last_picture(const std::string& hash, const LastPicture& picture) {
-  if (last_picture_folder().empty()) return;
+  if (hash.empty() || last_picture_folder().empty()) return;
   std::filesystem::create_directories(last_picture_folder());
   write_file(image_file(hash), encode_png(picture.image), NewFile::Readers::owner);
   std::ostringstream numbers;

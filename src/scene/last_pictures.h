@@ -14,12 +14,13 @@ struct LastPicture {
   Box box;  ///< the part of the plane that it shows
 };
 
-/// What the picture of a scene is kept by: a hash of all that the scene contains.
+/// The key of a scene's picture: a hash of all that the scene contains. Empty if the
+/// scene cannot be written to a file.
 std::string hash_of(const Scene& scene);
-/// The kept picture; none if there is none, or if it is damaged.
+/// The kept picture; none if there is none, if it is damaged, or if the hash is empty.
 std::optional<LastPicture> last_picture_of(const std::string& hash);
-/// Keeps a picture, and deletes those that have not been written for longest, except the last 40.
-/// Does nothing if the user has no home folder. Throws Error{failed}.
+/// Keeps a picture, and of all pictures the 40 newest. Does nothing if the user has no home folder.
+/// Throws Error{failed} or std::filesystem::filesystem_error.
 void keep_last_picture(const std::string& hash, const LastPicture& picture);
 
 }  // namespace holomorph

@@ -35,7 +35,7 @@ bool LayerMaps::update_others(const Scene& scene, const Moment& moment) {
   bool changed = false;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
-    if (i != scene.edited && (layer.visible || carries_visible(scene, i)))
+    if (i != scene.edited && (layer.visible || carries_others(scene, i)))
       changed = of(layer.id).update(layer.deformation, {}, moment) || changed;
   }
   return changed;
@@ -56,6 +56,15 @@ Similarity LayerMaps::motion(const Layer& parent, const Attachment& attachment) 
     known = anchors_.end() - 1;
   }
   return known->second.motion(as_span(map.map().f));
+}
+
+bool LayerMaps::knows_placement(const Scene& scene, size_t layer) const {
+  const std::optional<size_t> parent = parent_of(scene, *scene.layers[layer]);
+  if (!parent) return true;
+  const Layer& it = *scene.layers[*parent];
+  const LiveMap& map = of(it.id);
+  const bool known = !it.deformation.has_cage() || map.has_map() || map.error();
+  return known && knows_placement(scene, *parent);
 }
 
 Similarity LayerMaps::placement(const Scene& scene, size_t layer) const {

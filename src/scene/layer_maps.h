@@ -30,6 +30,8 @@ class LayerMaps {
   /// Where the plane of a layer lies in the scene's plane, with the displayed maps of the layers
   /// that it follows. `scene` is the document's.
   Similarity placement(const Scene& scene, size_t layer) const;
+  /// Whether the maps of all layers that a layer follows are known.
+  bool knows_placement(const Scene& scene, size_t layer) const;
   /// How the map of a layer moves what is attached to it; the identity while it has no map.
   Similarity motion(const Layer& parent, const Attachment& attachment) const;
   /// Discards all maps, including those that workers are preparing.

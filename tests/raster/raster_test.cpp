@@ -272,7 +272,7 @@ TEST_CASE("A texture has the picture's colors up to the surface's edge and a lit
   CHECK_THROWS_AS(textured(flattened_surface_of(deformation), deformation, nullptr), Error);
 }
 
-TEST_CASE("What is faintly visible outside the cage of a cut-out goes along with it") {
+TEST_CASE("The faint surroundings of a cut-out follow it") {
   Image image(60, 40);
   for (int row = 0; row < 40; ++row)
     for (int column = 0; column < 60; ++column) {

@@ -155,7 +155,7 @@ TEST_CASE("attachments: copies of layers follow the same parent, added scenes th
   }
 }
 
-TEST_CASE("attachments: files with circles or missing parents are refused") {
+TEST_CASE("attachments: files with cycles or missing parents are refused") {
   const std::string text = json_of(chained({0, Attachment::To::pin, 1}));
   const auto refuses = [&](const std::string& from, const std::string& to, const char* message) {
     std::string changed = text;
@@ -166,8 +166,8 @@ TEST_CASE("attachments: files with circles or missing parents are refused") {
     CHECK_THROWS_WITH(scene_from_json(changed, "the file"), Catch::Contains(message));
   };
   refuses("\"pin\": 1", "\"pin\": 7", "layer 2 is attached to a layer, pin or stroke that does");
-  refuses("\"layer\": 1", "\"layer\": 9", "does not exist");
-  refuses("\"layer\": 2", "\"layer\": 3", "layer 3 is attached to itself");
+  refuses("\"layer\": 1", "\"layer\": 9", "no layer has this id");
+  refuses("\"layer\": 2", "\"layer\": 3", "no layer has this id");
   refuses("\"id\": 2", "\"id\": 1", "another layer has the same id");
 
   Scene circle = chained({0, Attachment::To::place, 0, {9, 9}});

@@ -27,7 +27,7 @@ class LayerPainter {
   bool allocate_texture();
   /// Whether the next frame will show more of the picture.
   bool is_uploading() const { return uploading_; }
-  /// Uploads the current map. On another thread, finds what is faintly visible around a cut-out. If
+  /// Uploads the current map. On another thread, finds the faint surroundings of a cut-out. If
   /// `view` is a heat map, also computes its values.
   void update_map(const LiveMap& map, View view, bool automatic_range);
   /// Draws the layer. Adapts the view and placement in `frame` to the uploaded map.

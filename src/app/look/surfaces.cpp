@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/look/items.h"
 #include "app/look/text.h"
 
 namespace holomorph {
@@ -134,7 +135,9 @@ void end_menu_popup() {
 
 bool begin_menu(const char* label, bool enabled) {
   push_menu_style();
-  if (!ImGui::BeginMenu(label, enabled)) {
+  const bool open = ImGui::BeginMenu(label, enabled);
+  if (!open) {
+    name_item(std::string("Menu: ") + label);
     pop_menu_style();
     return false;
   }
@@ -148,7 +151,9 @@ void end_menu() {
 }
 
 bool menu_entry(const std::string& label, const std::string& keys, bool checked, bool enabled) {
-  return ImGui::MenuItem(label.c_str(), keys.c_str(), checked, enabled);
+  const bool chosen = ImGui::MenuItem(label.c_str(), keys.c_str(), checked, enabled);
+  name_item("Menu: " + label);
+  return chosen;
 }
 
 void menu_separator() {

@@ -121,7 +121,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
   const char* attach_id = attached ? "layer.detach" : "layer.attach";
   const std::string attach_tip =
       attached ? "Follows " + attachment_text(scene, layer) + ". Click to detach."
-               : "Attach to another layer: click a pin, a stroke or a place of it.";
+               : "Attach to another layer. Then click a pin, a stroke or a point on it.";
   if ((attached || may_follow_any(scene, layer)) &&
       flag_button(attach, "attach", icon_named("attach"), attach_tip.c_str(),
                   attached || hovered || edited, attached)) {

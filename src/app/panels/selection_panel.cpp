@@ -101,9 +101,15 @@ void pin_rows(Workspace& workspace, Index pin) {
   double radius = held.value_or(0);
   apply_change(
       workspace,
-      slider_row("Hold radius", radius, {.low = 1, .high = 500, .unit = "px", .logarithmic = true},
-                 "The disk that keeps its shape around a pin with fixed rotation, in methods that "
-                 "keep sizes"),
+      slider_row(
+          "Hold radius", radius,
+          {.low = 1,
+           .high = std::max(
+               500.0, box_of(outline_of(workspace.shown.deformation().rest).points).diagonal()),
+           .unit = "px",
+           .logarithmic = true},
+          "The disk that keeps its shape around a pin with fixed rotation, in methods that "
+          "keep sizes"),
       "Resize held disk", [&](const Deformation& s) { return with_held_radius(s, pin, radius); });
   ImGui::EndDisabled();
   pin_gap(workspace, pin);
@@ -166,12 +172,9 @@ void many_handles(Workspace& workspace) {
 /// Moves the selected keyframes as one step, if nothing is in their way.
 void move_keys(Workspace& workspace, const Change& change, const char* step, const TimeMap& map) {
   if (change.changed) {
-    auto moved =
-        with_keys_moved(workspace.document.scene(), workspace.shown.timeline.keys, map, false);
-    if (moved) {
-      workspace.commit_or_amend_layers(step, std::move(moved->scene));
+    auto moved = with_keys_moved(workspace.document.scene(), workspace.shown.timeline.keys, map);
+    if (moved && workspace.commit_or_amend_layers(step, std::move(moved->scene)))
       workspace.shown.timeline.keys = std::move(moved->keys);
-    }
   }
   if (change.ended) workspace.end_mergeable_step();
 }

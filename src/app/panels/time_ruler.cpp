@@ -51,11 +51,12 @@ void TimeRuler::pan(double seconds) {
 }
 
 bool TimeRuler::grow_to(float x) {
-  constexpr double kSpeed = 0.15;  // per frame, of how far the pointer is outside
+  constexpr double kPerSecond = 6;  // times how far the pointer is outside
+  const double speed = kPerSecond * static_cast<double>(ImGui::GetIO().DeltaTime);
   const double beyond = static_cast<double>(x - right_) / static_cast<double>(right_ - left_),
                before = static_cast<double>(left_ - x) / static_cast<double>(right_ - left_);
   if (beyond > 0 && start_ + length_ < kMaxTime) {
-    const double more = kSpeed * std::min(beyond, 0.3) * length_;
+    const double more = speed * std::min(beyond, 0.3) * length_;
     if (zoomed_)
       start_ += more;
     else
@@ -63,7 +64,7 @@ bool TimeRuler::grow_to(float x) {
     return true;
   }
   if (before > 0 && start_ > 0) {
-    start_ = std::max(0.0, start_ - kSpeed * std::min(before, 0.3) * length_);
+    start_ = std::max(0.0, start_ - speed * std::min(before, 0.3) * length_);
     return true;
   }
   return false;

@@ -21,14 +21,15 @@ class TimeRuler {
   float left() const { return left_; }
   float right() const { return right_; }
 
-  /// Zooms by a factor around a time, or shows the whole animation again.
+  /// Zooms by a factor around a time.
   void zoom(double factor, double around);
+  /// Shows the whole animation again.
   void fit() { zoomed_ = false; }
   void pan(double seconds);
   /// Shows more while something is dragged beyond an end. Returns whether it changed.
   bool grow_to(float x);
 
-  /// Draws the ticks with their seconds and frames, and the current time.
+  /// Draws the ticks with their seconds and frames.
   void draw(ImDrawList& list, const Workspace& workspace, float top, float bottom) const;
 
  private:

@@ -54,10 +54,13 @@ void TimelinePanel::draw_numbers(Workspace& workspace) {
     workspace.go_to_time(time);
   tooltip("Current time");
   ImGui::SameLine(0, px(6));
-  double frame = frame_at(scene, workspace.shown.timeline.time);
-  if (number_field("##Frame", frame, {0, kMaxTime * kMaxFrameRate, "frame", 0, false, {}, 0.2},
+  // While the field is dragged, it keeps fractions of frames.
+  const double shown = frame_at(scene, workspace.shown.timeline.time);
+  if (!frame_ || std::lround(*frame_) != std::lround(shown)) frame_ = shown;
+  if (number_field("##Frame", *frame_, {0, kMaxTime * kMaxFrameRate, "frame", 0, false, {}, 0.2},
                    px(96)))
-    workspace.go_to_time(time_of_frame(scene, static_cast<int>(frame)));
+    workspace.go_to_time(time_of_frame(scene, static_cast<int>(std::lround(*frame_))));
+  if (!ImGui::IsItemActive()) frame_.reset();
   tooltip("Current frame");
   ImGui::SameLine(0, px(8));
   char length[32];
@@ -67,10 +70,12 @@ void TimelinePanel::draw_numbers(Workspace& workspace) {
   ImGui::SameLine(0, px(8));
   double rate = scene.animation.frames_per_second;
   const Change change = number_field(
-      "##Rate", rate, {kMinFrameRate, kMaxFrameRate, "fps", 0, false, {}, 0.1}, px(76));
+      "##Rate", rate,
+      {kMinFrameRate, kMaxFrameRate, "fps", rate == std::round(rate) ? 0 : 3, false, {}, 1},
+      px(88));
   if (change.changed) {
     AnimationSettings settings = scene.animation;
-    settings.frames_per_second = rate;
+    settings.frames_per_second = std::round(1000 * rate) / 1000;
     workspace.commit_or_amend_layers("Frame rate", with_animation(scene, settings));
   }
   if (change.ended) workspace.end_mergeable_step();

@@ -11,7 +11,8 @@ class TimelinePanel {
  public:
   /// The height that the panel needs, in px.
   double height(const Workspace& workspace, const PanelSizes& sizes) const;
-  /// The status bar's text while the pointer is on keyframes; else empty.
+  bool take_growth() { return rows_.take_growth(); }
+  /// The status bar's text while the pointer is on the ruler or on the rows; else empty.
   std::string hint() const;
   void draw(Workspace& workspace, Thumbnails& thumbnails, const PanelSizes& sizes);
 
@@ -26,6 +27,7 @@ class TimelinePanel {
     double at = 0;  ///< seconds
   };
   std::vector<PlayedFrame> played_;
+  std::optional<double> frame_;  ///< while its field is dragged
   TimelineRows rows_;
 };
 

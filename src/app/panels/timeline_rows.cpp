@@ -133,7 +133,7 @@ void TimelineRows::draw_ruler(Workspace& workspace, float names) {
     held_ = Held::time;
   }
   if (ImGui::IsItemActive() && held_ == Held::time) {
-    ruler_.grow_to(pointer.x);
+    grows_ = ruler_.grow_to(pointer.x);
     const double time = snapped(workspace.document.scene(), ruler_.time(pointer.x));
     if (time != workspace.shown.timeline.time) workspace.go_to_time(time);
   } else if (held_ == Held::time) {
@@ -254,6 +254,7 @@ void TimelineRows::press(Workspace& workspace, ImVec2 pointer) {
   const bool adds = ImGui::GetIO().KeyShift;
   const auto key = key_under(workspace, pointer);
   const double time = ruler_.time(pointer.x);
+  pressed_key_ = key;
   if (!key && box_.z > box_.x && pointer.y >= box_.y && pointer.y <= box_.w)
     for (const auto& [x, kind] :
          {std::pair(box_.x, KeyDrag::Kind::stretch_start), {box_.z, KeyDrag::Kind::stretch_end}})
@@ -283,7 +284,7 @@ void TimelineRows::press(Workspace& workspace, ImVec2 pointer) {
   if (chosen.size() == 1) workspace.go_to_time(key->time);
   timeline.keys = chosen;
   held_ = Held::keys;
-  drag_.start(workspace, KeyDrag::Kind::move, time);
+  drag_.start(workspace, ImGui::GetIO().KeyCtrl ? KeyDrag::Kind::copy : KeyDrag::Kind::move, time);
 }
 
 void TimelineRows::select_in_box(Workspace& workspace, ImVec2 to) {
@@ -309,9 +310,8 @@ void TimelineRows::follow(Workspace& workspace, ImVec2 pointer) {
   moved_ = moved_ || std::abs(pointer.x - pressed_.x) + std::abs(pointer.y - pressed_.y) > px(4);
   if (held_ == Held::box && moved_) select_in_box(workspace, pointer);
   if (held_ != Held::keys || !moved_) return;
-  ruler_.grow_to(pointer.x);
-  const ImGuiIO& io = ImGui::GetIO();
-  drag_.follow(workspace, ruler_.time(pointer.x), io.KeyAlt, io.KeyCtrl);
+  grows_ = ruler_.grow_to(pointer.x);
+  drag_.follow(workspace, ruler_.time(pointer.x), ImGui::GetIO().KeyAlt);
   if (timeline.keys.size() != 1 || timeline.time == timeline.keys.begin()->time) return;
   const KeySelection keys = timeline.keys;
   workspace.go_to_time(keys.begin()->time);
@@ -381,11 +381,15 @@ void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
   if (active && held_ != Held::time) {
     follow(workspace, pointer);
   } else if (held_ == Held::keys || held_ == Held::box) {
+    if (held_ == Held::keys && !moved_ && pressed_key_) {
+      workspace.shown.timeline.keys = {*pressed_key_};
+      workspace.go_to_time(pressed_key_->time);
+    }
     if (held_ == Held::box && !moved_) {
       workspace.shown.timeline.keys.clear();
       workspace.go_to_time(snapped(workspace.document.scene(), ruler_.time(pointer.x)));
     }
-    drag_.end(workspace);
+    drag_.end();
     held_ = Held::nothing;
   }
   list.PopClipRect();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <set>
+#include <utility>
 
 #include "app/panels/time_ruler.h"
 #include "app/thumbnails.h"
@@ -15,6 +16,8 @@ class TimelineRows {
   float height(const Workspace& workspace) const;
   void draw(Workspace& workspace, Thumbnails& thumbnails);
   TimeRuler& ruler() { return ruler_; }
+  /// Whether the ruler has grown during a drag, so that another frame is needed. Resets the answer.
+  bool take_growth() { return std::exchange(grows_, false); }
   /// Whether the pointer is on the ruler or on the keyframes.
   bool hovered() const { return hovered_; }
 
@@ -45,7 +48,8 @@ class TimelineRows {
   ImVec4 box_{};   ///< around the selected keyframes; empty if there is none
   Held held_ = Held::nothing;
   ImVec2 pressed_{};
-  bool moved_ = false, hovered_ = false;
+  std::optional<KeyId> pressed_key_;
+  bool moved_ = false, hovered_ = false, grows_ = false;
   KeySelection before_box_;
   KeyDrag drag_;
 };

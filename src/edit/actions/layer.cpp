@@ -38,7 +38,7 @@ void attach_layer(Workspace& w) {
   w.tools.active = ToolId::attach;
 }
 void detach_layer(Workspace& w) {
-  if (!w.require_open_layer()) return;
+  if (!w.require_open_layer() || !w.require_placements()) return;
   const Scene& scene = w.document.scene();
   w.commit_layers("Detach layer", detached(scene, scene.edited, w.placement(scene.edited)));
 }

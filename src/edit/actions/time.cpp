@@ -32,14 +32,14 @@ std::string for_keys(const std::string& what, const KeySelection& keys) {
   return what + (keys.size() == 1 ? " keyframe" : " keyframes");
 }
 
-/// Copies the selected keyframes to the current time, or behind them if it is among them.
+/// Copies the selected keyframes to the current time, or after them if it is among them.
 void duplicate_keys(Workspace& w) {
   const KeySelection keys = chosen_keys(w);
   const auto [first, last] = span_of(keys);
   const Scene& scene = w.document.scene();
   const double frame = 1 / scene.animation.frames_per_second, time = w.shown.timeline.time;
   for (const double to : {time, std::max(last, time) + frame}) {
-    const auto copied = with_keys_moved(scene, keys, {1, first, to}, false, true);
+    const auto copied = with_keys_moved(scene, keys, {1, first, to}, {.copies = true});
     if (!copied) continue;
     if (w.commit_layers(for_keys("Copy", keys), copied->scene))
       w.shown.timeline.keys = copied->keys;

@@ -1,5 +1,5 @@
 // Attaches the edited layer to what is clicked on another layer: a pin, a stroke or a place of the
-// picture. Chosen by an action, and gone after one click.
+// picture. An action chooses it, and one click ends it.
 #include "core/geometry/polyline.h"
 #include "edit/picking.h"
 #include "edit/tools/layer_drag.h"
@@ -111,6 +111,7 @@ class AttachTool final : public Tool {
     const auto& [attachment, scene] = attachment_to(w.document.scene(), *target_);
     const size_t layer = scene.edited;
     const Layer& parent = *scene.layers[target_->layer];
+    if (!w.require_placements()) return;
     if (parent.deformation.has_cage() && !w.maps.of(parent.id).has_map())
       return w.messages.say("The other layer is being prepared. Try again in a moment.");
     const Scene attached =

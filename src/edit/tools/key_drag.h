@@ -7,22 +7,21 @@ namespace holomorph {
 
 class KeyDrag {
  public:
-  enum class Kind { move, stretch_start, stretch_end };
+  enum class Kind { move, copy, stretch_start, stretch_end };
 
   /// Starts a drag of the selected keyframes at a time of the ruler.
   void start(const Workspace& workspace, Kind kind, double time);
   bool active() const { return active_; }
-  bool moving() const { return moving_; }
-  /// Moves what is dragged to a time: to whole frames, unless `freely` is set. With `copies`, the
-  /// keyframes also stay where they were. Where a keyframe would meet another one, they wait.
-  void follow(Workspace& workspace, double time, bool freely, bool copies);
-  void end(Workspace& workspace);
+  /// Moves what is dragged to a time: to whole frames, unless `freely` is set. Where a keyframe
+  /// would meet another one, the drag stops.
+  void follow(Workspace& workspace, double time, bool freely);
+  void end() { active_ = false; }
 
  private:
   TimeMap map_to(double time) const;
 
   Kind kind_ = Kind::move;
-  bool active_ = false, moving_ = false;
+  bool active_ = false, committed_ = false;
   double start_ = 0;
   Scene scene_;  ///< at the start
   KeySelection keys_;

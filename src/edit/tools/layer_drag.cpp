@@ -97,8 +97,7 @@ bool LayerDrag::start(const Input& input, Workspace& w) {
 void LayerDrag::follow(const Input& input, Workspace& w) {
   moving_ = moving_ || std::abs(input.px - start_px_) >= kDragThresholdPx;
   Complex by = input.position - start_;
-  if (input.mods.shift)
-    by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
+  if (input.mods.shift) by = w.layer_view().along_axis(by);
   if (moving_) w.shown.preview = moved_as_whole(shown_, by);
   if (!input.released && input.down) return;
   active_ = false;

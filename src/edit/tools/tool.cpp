@@ -36,8 +36,7 @@ bool HandleDrag::follow(const Input& input, Workspace& workspace) {
 
 Deformation HandleDrag::dragged(const Input& input, Workspace& workspace) {
   Complex by = input.position - start_;
-  if (input.mods.shift)
-    by = std::abs(by.real()) > std::abs(by.imag()) ? Complex(by.real(), 0) : Complex(0, by.imag());
+  if (input.mods.shift) by = workspace.layer_view().along_axis(by);
   if (recording_.active()) return recording_.follow(workspace, by, input.now_ms);
   guides_.clear();
   if (workspace.tools.snaps) {

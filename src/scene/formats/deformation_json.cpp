@@ -1,6 +1,8 @@
 // The parts of a deformation are read in an order that lets each part refer to earlier ones.
 #include "scene/formats/deformation_json.h"
 
+#include <set>
+
 #include "core/error.h"
 #include "core/geometry/polyline.h"
 #include "core/mesh/flatten.h"
@@ -205,6 +207,19 @@ Json method_json(const Deformation& deformation) {
 
 }  // namespace
 
+namespace {
+
+/// Handles to which layers are attached must have different ids.
+template <class Handle>
+void check_ids(const Reader& list, const std::vector<Handle>& handles) {
+  std::set<int> used;
+  for (size_t i = 0; i < handles.size(); ++i)
+    if (handles[i].id > 0 && !used.insert(handles[i].id).second)
+      list[i]["id"].fail("another one has the same id");
+}
+
+}  // namespace
+
 Deformation read_deformation(const Reader& reader) {
   Deformation deformation;
   read_cage(reader["cage"], deformation);
@@ -212,6 +227,7 @@ Deformation read_deformation(const Reader& reader) {
     const Reader pins = reader["pins"].array();
     if (pins.size() > kMaxPins) pins.fail("more than " + std::to_string(kMaxPins) + " pins");
     for (size_t i = 0; i < pins.size(); ++i) deformation.pins.push_back(read_pin(pins[i]));
+    check_ids(pins, deformation.pins);
   }
   if (reader.has("strokes")) {
     const Reader strokes = reader["strokes"].array();
@@ -219,6 +235,7 @@ Deformation read_deformation(const Reader& reader) {
       strokes.fail("more than " + std::to_string(kMaxStrokes) + " strokes");
     for (size_t i = 0; i < strokes.size(); ++i)
       deformation.strokes.push_back(read_stroke(strokes[i]));
+    check_ids(strokes, deformation.strokes);
   }
   if (reader.has("corners")) {
     const Reader corners = reader["corners"].array();

@@ -151,6 +151,9 @@ void set_ids(const Reader& list, std::vector<Layer>& layers) {
     layers[i].id = list[i]["id"].whole(1, kMaxId);
     if (!used.insert(layers[i].id).second) list[i]["id"].fail("another layer has the same id");
   }
+  for (size_t i = 0; i < layers.size(); ++i)
+    if (layers[i].attachment && !used.contains(layers[i].attachment->layer))
+      list[i]["attachment"]["layer"].fail("no layer has this id");
   for (size_t i = 0; i < layers.size(); ++i) {
     if (list[i].has("id")) continue;
     layers[i].id = static_cast<int>(i) + 1;

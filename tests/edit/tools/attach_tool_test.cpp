@@ -142,7 +142,7 @@ TEST_CASE("attach tool: without its pin, a hat stays where it is, until undo") {
   CHECK(is_near(w.placement(0), there, 1e-6));
 }
 
-TEST_CASE("attach tool: deleting another pin, detaching and circles") {
+TEST_CASE("attach tool: deleting another pin, detaching and cycles") {
   Puppet puppet;
   Workspace& w = puppet.w;
   puppet.attach({180, 50});
@@ -162,7 +162,7 @@ TEST_CASE("attach tool: deleting another pin, detaching and circles") {
   CHECK(w.actions.named("layer.attach").enabled(w));
 }
 
-TEST_CASE("attach tool: Escape and clicks beside all layers attach nothing") {
+TEST_CASE("attach tool: Escape and clicks outside all layers attach nothing") {
   Puppet puppet;
   Workspace& w = puppet.w;
   run(w.actions.named("layer.attach"), w);

@@ -39,12 +39,11 @@ struct Keyed {
       all.push_back(key.time);
     return all;
   }
-  void drag(KeyDrag::Kind kind, double from, const std::vector<double>& path, bool freely = false,
-            bool copies = false) {
+  void drag(KeyDrag::Kind kind, double from, const std::vector<double>& path, bool freely = false) {
     KeyDrag drag;
     drag.start(w, kind, from);
-    for (const double time : path) drag.follow(w, time, freely, copies);
-    drag.end(w);
+    for (const double time : path) drag.follow(w, time, freely);
+    drag.end();
   }
 };
 
@@ -97,9 +96,28 @@ TEST_CASE("key drag: the bars of the box stretch time, copies stay") {
 
   Keyed other;
   other.timeline.keys = {{1, 1.0}, {2, 1.0}};
-  other.drag(KeyDrag::Kind::move, 1, {1.4, 1.5}, false, true);
+  other.drag(KeyDrag::Kind::copy, 1, {1.4, 1.5});
   CHECK(other.times(0) == Times{0, 1, 1.5, 2});
   CHECK(other.times(1) == Times{0, 1, 1.5});
+}
+
+TEST_CASE("key drag: each drag is one step, in the rest shape too") {
+  Keyed keyed;
+  keyed.w.mode = EditMode::rest;
+  keyed.timeline.keys = {{1, 0.0}, {1, 1.0}, {1, 2.0}};
+  size_t steps = keyed.desk.steps();
+  keyed.drag(KeyDrag::Kind::stretch_end, 2, {2.2, 2.5, 3.0});
+  CHECK(keyed.desk.steps() == steps + 1);
+  // The second stretch begins with positions that round to the same frames.
+  keyed.drag(KeyDrag::Kind::stretch_end, 3, {3.001, 3.002, 4.0});
+  CHECK(keyed.desk.steps() == steps + 2);
+  run(keyed.w.actions.named("edit.undo"), keyed.w);
+  CHECK(keyed.times(0) == Times{0, 1.5, 3});
+  // A drag that goes nowhere is no step.
+  steps = keyed.desk.steps();
+  keyed.timeline.keys = {{1, 1.5}};
+  keyed.drag(KeyDrag::Kind::move, 1.5, {1.501, 1.499});
+  CHECK(keyed.desk.steps() == steps);
 }
 
 TEST_CASE("key actions: duplicate at the current time, delete all in one step") {
