@@ -53,10 +53,11 @@ Complex posed_at(const LiveMap& map, Complex rest) {
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
   constexpr double kAtVertex = 1e-3;
   if (!has_cage_handles(workspace.shown.deformation(), workspace.mode)) return {};
-  const CageHit hit = nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode),
-                                      workspace.layer_view().plane_at_px(px));
-  if (hit.distance * workspace.layer_view().zoom > workspace.display.handle_px ||
-      hit.t < kAtVertex || hit.t > 1 - kAtVertex)
+  const Viewport view = workspace.layer_view();
+  const CageHit hit =
+      nearest_on_cage(cage_of(workspace.shown.deformation(), workspace.mode), view.plane_at_px(px));
+  if (hit.distance * view.zoom > workspace.display.handle_px || hit.t < kAtVertex ||
+      hit.t > 1 - kAtVertex)
     return {};
   return hit;
 }
@@ -73,11 +74,12 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   std::optional<Handle> best;
   if (!workspace.display.show_cage || workspace.display.hide_overlays) return best;
   double distance = workspace.display.handle_px;
+  const Viewport view = workspace.layer_view();
   const Deformation& deformation = workspace.shown.deformation();
   for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind == Handle::Kind::stroke) continue;
-    const double here = std::abs(
-        workspace.layer_view().px_at_plane(position_of(deformation, handle, workspace.mode)) - px);
+    const double here =
+        std::abs(view.px_at_plane(position_of(deformation, handle, workspace.mode)) - px);
     // A pin at the same position as a cage point is drawn on top and picked first.
     if (here < distance || (here == distance && handle.kind == Handle::Kind::pin)) {
       best = handle;
@@ -89,9 +91,9 @@ std::optional<Handle> handle_at(const Workspace& workspace, Complex px) {
   for (const Handle& handle : handles_of(deformation, workspace.mode)) {
     if (handle.kind != Handle::Kind::stroke) continue;
     const double here =
-        workspace.layer_view().zoom *
+        view.zoom *
         Polyline(without_repeats(curve_of(deformation, handle.index, workspace.mode)), false)
-            .nearest(workspace.layer_view().plane_at_px(px))
+            .nearest(view.plane_at_px(px))
             .distance;
     if (here >= distance) continue;
     best = handle;

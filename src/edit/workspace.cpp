@@ -164,8 +164,11 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
   if (!accepts(scene)) return false;
   if (entry.sets_key)
     shown.timeline.visible = shown.timeline.active = true;
-  else if (entry.moves)
-    shown.timeline.active = shown.timeline.playing = false;
+  else if (entry.moves) {
+    // A layer without keyframes is posed while the others keep the displayed time.
+    shown.timeline.playing = false;
+    if (!shown.own().keyframes.empty()) shown.timeline.active = false;
+  }
   const int layer = document.scene().layer().id;
   put(std::move(scene));
   shown.follow(entry, layer == document.scene().layer().id);
@@ -176,6 +179,7 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
 /// Resets the state that belongs only to the edited layer.
 void Workspace::leave_layer() {
   shown.preview.reset();
+  shown.timeline.keys.clear();
   shown.set_timed({});
   mergeable_selection_.reset();
   selection.clear();

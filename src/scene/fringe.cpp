@@ -13,6 +13,7 @@ namespace holomorph {
 namespace {
 
 constexpr int kFringeVertices = 3000;  ///< of each mesh
+constexpr double kSlack = 0.015;       ///< how far a cage may cut into a cut-out, in diagonals
 constexpr double kMargin = 2;          ///< around faint pixels, in pixels
 
 Polygon boundary_of(const Mesh& mesh) {
@@ -34,6 +35,7 @@ Box faint_box(PolygonView polygon, const Image& picture, const std::function<boo
   std::vector<std::pair<Complex, Complex>> edges;
   polygon.for_each_edge([&](Index, Complex a, Complex b) { edges.emplace_back(a, b); });
   const int solid = (largest_alpha(picture) + 1) / 2;
+  const double reach = kSlack * box_of(polygon.points()).diagonal();
   Box box;
   std::vector<double> crossings;
   for (int row = 0; row < picture.height; ++row) {
@@ -54,7 +56,7 @@ Box faint_box(PolygonView polygon, const Image& picture, const std::function<boo
     for (size_t i = 0; i < crossings.size(); i += 2) {
       for (int c = first, end = column(crossings[i]); c < end; ++c) {
         const int alpha = picture.at(c, row)[3];
-        if (alpha >= solid) return {};
+        if (alpha >= solid && nearest_on_polygon(polygon, {c + 0.5, y}).distance > reach) return {};
         if (alpha > 0) box.include({c + 0.5, y});
       }
       first = i + 1 < crossings.size() ? column(crossings[i + 1]) : picture.width;

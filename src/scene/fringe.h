@@ -25,9 +25,10 @@ struct Fringe {
 };
 
 /// The fringe of a picture around the mesh of its cage. Null if the picture is not a cut-out, which
-/// means that a pixel outside the cage has at least half the opacity of the most opaque one, or if
-/// there is nothing outside. Cost: about 1 ns per pixel; with a fringe, that of a mesh.
-/// `keep_going` is called from time to time; if it returns false, the result is null.
+/// means that a pixel outside the cage has at least half the opacity of the most opaque one, and is
+/// not only cut off by an imprecise cage, or if there is nothing outside. Cost: about 1 ns per
+/// pixel; with a fringe, that of a mesh. `keep_going` is called from time to time; if it returns
+/// false, the result is null.
 std::shared_ptr<const Fringe> fringe_of(
     const Mesh& mesh, const Image& picture,
     const std::function<bool()>& keep_going = [] { return true; });

@@ -89,6 +89,18 @@ class LookWindowTest(WindowCase):
             for color in ("3A3C41", "404247"):
                 self.assertGreater(share(away, color, 2), 0.02)
 
+    def test_the_welcome_page_says_why_a_file_does_not_open(self):
+        bad = os.path.join(self.work, "bad.png")
+        with open(bad, "w") as file:
+            file.write("not a picture")
+        with Editor(PROGRAM, []) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            before = self.screenshot(editor, "welcome")
+            editor.drop(bad, 700, 400)
+            time.sleep(1.5)
+            after = self.screenshot(editor, "welcome-complains")
+            self.assertGreater(share(after, "FF8A80", 30) - share(before, "FF8A80", 30), 2e-5, "a sign in the color of errors")
+
     def test_menus_are_short_and_begin_with_what_is_used_most(self):
         with Editor(PROGRAM, [self.picture]) as editor:
             editor.wait(lambda s: s["pictured"], "the picture")

@@ -106,6 +106,30 @@ TEST_CASE("Recording a ring keeps the motion of the other pins") {
   CHECK(own.keyframes.back().pose.pins[1].angle == Approx(2.25).margin(0.02));
 }
 
+TEST_CASE("Recording a ring loses no keyframes: they must know the rotation of the pin") {
+  RingDesk desk("pins", {});
+  Workspace& w = desk.workspace;
+  for (const double time : {0.0, 1.0}) {
+    w.go_to_time(time);
+    w.update_map({});
+    desk.settle();
+    w.set_key();
+    desk.settle();
+    w.update_map({});
+  }
+  w.go_to_time(0);
+  for (int i = 0; i < 200 && !w.shown.knows_pose(); ++i) w.update_map({});
+  const Deformation before = w.shown.own();
+  REQUIRE(before.keyframes.size() == 2);
+  w.selection = {{Handle::Kind::pin, 1, 0}};
+  const size_t steps = desk.steps();
+  const Complex at = w.shown.deformation().pins[1].pose;
+  record(desk, [&](double t) { return at + std::polar(desk.ring(), t); });
+  CHECK(desk.steps() == steps);
+  CHECK(w.shown.own() == before);
+  CHECK_FALSE(w.messages.toasts.empty());
+}
+
 TEST_CASE("Recording rings, arms and tensions of corners") {
   const Points bar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
   const auto start = [](TestWorkspace& desk) {

@@ -88,6 +88,9 @@ TEST_CASE("fringe: there is none if something solid, or nothing, lies outside th
   image = glowing_disk(25, 30);
   CHECK(fringe_of(mesh, image));
   CHECK_FALSE(fringe_of(mesh, image, [] { return false; }));
+  // A cage may cut a little into the edge.
+  const Mesh tight = domain_mesh(around_disk(40, 24.4), {300});
+  CHECK(fringe_of(tight, image));
   image.at(2, 3)[3] = 128;
   CHECK_FALSE(fringe_of(mesh, image));
   // A translucent picture is solid everywhere.

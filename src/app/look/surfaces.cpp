@@ -62,8 +62,8 @@ void begin_card(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flag
   begin_surface(name, at, pivot, kPanel | ImGuiWindowFlags_AlwaysAutoResize | flags);
 }
 
-void begin_floating(const char* name, ImVec2 at, ImVec2 pivot) {
-  begin_surface(name, at, pivot, kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
+void begin_floating(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flags) {
+  begin_surface(name, at, pivot, (kPanel & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | flags);
 }
 
 void end_card() {

@@ -31,7 +31,7 @@ void begin_card(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flag
 void end_card();
 /// Like begin_card, for a window in front of the panels whose size is set before. End it with
 /// end_card().
-void begin_floating(const char* name, ImVec2 at, ImVec2 pivot);
+void begin_floating(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags flags = 0);
 
 /// Begins a dialog in the middle of the window, with a flat title, a shadow and darkness behind;
 /// call end_dialog() if this returns true. `width` in units; height 0 fits the contents.

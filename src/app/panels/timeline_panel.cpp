@@ -34,6 +34,19 @@ void separator() {
   ImGui::SameLine(0, px(8));
 }
 
+void draw_set_key(Workspace& workspace) {
+  const Action& action = workspace.actions.named("time.key");
+  const float top = ImGui::GetCursorPosY();
+  ImGui::BeginDisabled(!action.enabled(workspace));
+  ImGui::SetCursorPosY(top - px(2));  // buttons are taller than icons
+  if (button(std::string(action.icon) + " Set key", ButtonKind::flat)) run(action, workspace);
+  name_item("Set key");
+  tooltip_of(workspace.actions.named("time.key"));
+  ImGui::EndDisabled();
+  ImGui::SameLine(0, px(4));
+  ImGui::SetCursorPosY(top);
+}
+
 }  // namespace
 
 double TimelinePanel::height(const Workspace& workspace, const PanelSizes& sizes) const {
@@ -47,7 +60,7 @@ std::string TimelinePanel::hint() const {
              : "";
 }
 
-void TimelinePanel::draw_numbers(Workspace& workspace) {
+void TimelinePanel::draw_numbers(Workspace& workspace, bool with_length) {
   const Scene& scene = workspace.document.scene();
   double time = workspace.shown.timeline.time;
   if (number_field("##Time", time, {0, kMaxTime, "s", 2, false, {}, 0.01}, px(84)))
@@ -63,11 +76,13 @@ void TimelinePanel::draw_numbers(Workspace& workspace) {
   if (!ImGui::IsItemActive()) frame_.reset();
   tooltip("Current frame");
   ImGui::SameLine(0, px(8));
-  char length[32];
-  std::snprintf(length, sizeof length, "of %.2f s", length_of(scene));
-  ImGui::AlignTextToFramePadding();
-  colored_text(theme_colors().muted, length);
-  ImGui::SameLine(0, px(8));
+  if (with_length) {
+    char length[32];
+    std::snprintf(length, sizeof length, "of %.2f s", length_of(scene));
+    ImGui::AlignTextToFramePadding();
+    colored_text(theme_colors().muted, length);
+    ImGui::SameLine(0, px(8));
+  }
   double rate = scene.animation.frames_per_second;
   const Change change = number_field(
       "##Rate", rate,
@@ -82,8 +97,8 @@ void TimelinePanel::draw_numbers(Workspace& workspace) {
   tooltip("Frames per second, for stepping and export");
 }
 
-/// While the animation plays slower than its frame rate, says how fast it plays.
-void TimelinePanel::draw_real_rate(const Workspace& workspace) {
+/// Says how fast the animation plays, left of `end`.
+void TimelinePanel::draw_real_rate(const Workspace& workspace, float end) {
   const Timeline& timeline = workspace.shown.timeline;
   const double now = ImGui::GetTime();
   if (!timeline.playing) {
@@ -99,26 +114,32 @@ void TimelinePanel::draw_real_rate(const Workspace& workspace) {
   const double wanted = workspace.document.scene().animation.frames_per_second;
   char text[64];
   std::snprintf(text, sizeof text, "Plays at %.0f fps", std::min(rate, wanted));
-  ImGui::SameLine(0, px(12));
+  ImGui::SameLine(0, px(8));
+  const float room = end - px(8) - ImGui::GetCursorScreenPos().x;
+  if (room < text_size(Type::body, text).x)
+    std::snprintf(text, sizeof text, "%.0f fps", std::min(rate, wanted));
+  if (room < text_size(Type::body, text).x) return;
   ImGui::AlignTextToFramePadding();
   colored_text(rate < 0.9 * wanted ? theme_colors().warning : theme_colors().muted, text);
   name_item("real rate");
 }
 
-void TimelinePanel::draw_zoom(Workspace& workspace, float right) {
+void TimelinePanel::draw_zoom(Workspace& workspace, float right, bool with_zoom) {
   const float side = px(28);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::SetCursorScreenPos({right - 3 * side - px(16), at.y});
-  const double now = workspace.shown.timeline.time;
-  if (icon_button("Zoom out", icon_named("minus"), "Show more time (wheel over the ruler)", false,
-                  side))
-    rows_.ruler().zoom(1 / 1.5, now);
-  ImGui::SameLine(0, px(4));
-  if (icon_button("Zoom in", icon_named("add"),
-                  "Show less time (wheel over the ruler). Double-click the ruler to show all.",
-                  false, side))
-    rows_.ruler().zoom(1.5, now);
-  ImGui::SameLine(0, px(4));
+  if (with_zoom) {
+    ImGui::SetCursorScreenPos({right - 3 * side - px(16), at.y});
+    const double now = workspace.shown.timeline.time;
+    if (icon_button("Zoom out", icon_named("minus"), "Show more time (wheel over the ruler)", false,
+                    side))
+      rows_.ruler().zoom(1 / 1.5, now);
+    ImGui::SameLine(0, px(4));
+    if (icon_button("Zoom in", icon_named("add"),
+                    "Show less time (wheel over the ruler). Double-click the ruler to show all.",
+                    false, side))
+      rows_.ruler().zoom(1.5, now);
+  }
+  ImGui::SetCursorScreenPos({right - side - px(8), at.y});
   if (icon_button("Close timeline", icon_named("close"), "Close the timeline", false, side))
     run("view.timeline", workspace);
 }
@@ -136,26 +157,22 @@ void TimelinePanel::draw(Workspace& workspace, Thumbnails& thumbnails, const Pan
     tool_button(id, workspace);
   if (!sizes.two_rows) {
     separator();
-    draw_numbers(workspace);
+    draw_numbers(workspace, true);
   }
   separator();
-  {
-    const Action& action = workspace.actions.named("time.key");
-    ImGui::BeginDisabled(!action.enabled(workspace));
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - px(2));  // buttons are taller than icons
-    if (button(std::string(action.icon) + " Set key", ButtonKind::flat)) run(action, workspace);
-    name_item("Set key");
-    tooltip_of(workspace.actions.named("time.key"));
-    ImGui::EndDisabled();
-  }
-  ImGui::SameLine(0, px(4));
-  for (const char* id : {"time.auto_key", "time.onion"}) tool_button(id, workspace);
-  draw_real_rate(workspace);
+  if (sizes.two_rows)
+    tool_button("time.key", workspace);
+  else
+    draw_set_key(workspace);
+  tool_button("time.auto_key", workspace);
+  if (!sizes.two_rows) tool_button("time.onion", workspace);
+  const float zoom = to.x - 3 * px(28) - px(16);
+  if (!sizes.two_rows) draw_real_rate(workspace, zoom);
   ImGui::SetCursorScreenPos({from.x, from.y + px(8)});
-  draw_zoom(workspace, to.x);
+  draw_zoom(workspace, to.x, !sizes.two_rows);
   if (sizes.two_rows) {
     ImGui::SetCursorScreenPos({from.x + px(10), from.y + px(kBar + 4)});
-    draw_numbers(workspace);
+    draw_numbers(workspace, false);
   }
   ImGui::SetCursorScreenPos({from.x, from.y + px(kBar) * (sizes.two_rows ? 2 : 1)});
   rows_.draw(workspace, thumbnails);

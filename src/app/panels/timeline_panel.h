@@ -17,9 +17,9 @@ class TimelinePanel {
   void draw(Workspace& workspace, Thumbnails& thumbnails, const PanelSizes& sizes);
 
  private:
-  void draw_numbers(Workspace& workspace);
-  void draw_zoom(Workspace& workspace, float right);
-  void draw_real_rate(const Workspace& workspace);
+  void draw_numbers(Workspace& workspace, bool with_length);
+  void draw_zoom(Workspace& workspace, float right, bool with_zoom);
+  void draw_real_rate(const Workspace& workspace, float end);
 
   /// A frame that was displayed while playing, and when.
   struct PlayedFrame {

@@ -44,9 +44,9 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(14), px(10)});
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::clamp(remaining, 0.2f, 1.0f));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(c.raised));
-    begin_card(("toast " + toast.text).c_str(), {left, y}, {0, 1},
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoNav | (toast.where ? 0 : ImGuiWindowFlags_NoInputs));
+    begin_floating(("toast " + toast.text).c_str(), {left, y}, {0, 1},
+                   ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoFocusOnAppearing |
+                       ImGuiWindowFlags_NoNav | (toast.where ? 0 : ImGuiWindowFlags_NoInputs));
     if (toast.problem) {
       colored_text(c.error, icon_named("warning"));
       ImGui::SameLine(0, px(8));

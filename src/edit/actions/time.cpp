@@ -124,8 +124,9 @@ std::vector<Action> time_actions() {
       },
       {
           .id = "time.delete_key",
-          .label = "Delete keyframe",
+          .label = "Delete keyframes",
           .hint = "Delete the selected keyframes, or the one at the current time",
+          .icon = icon_named("trash"),
           .enabled = has_chosen_keys,
           .run =
               [](Workspace& w) {

@@ -163,8 +163,9 @@ class AngleTool final : public Tool {
     box.include(marquee_->second);
     marquee_.reset();
     if (!input.mods.shift) workspace.selection.clear();
+    const Viewport view = workspace.layer_view();
     for (Index v = 0; v < workspace.shown.deformation().pose.size(); ++v)
-      if (box.contains(workspace.layer_view().px_at_plane(posed_vertex(workspace, v))))
+      if (box.contains(view.px_at_plane(posed_vertex(workspace, v))))
         workspace.selection.insert({Handle::Kind::cage, v, 0});
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/motion.h"
+#include "scene/prepared_map.h"
 
 namespace holomorph {
 namespace {
@@ -119,10 +120,13 @@ bool Recording::begin(Workspace& workspace, double now_ms) {
 
 bool Recording::start(Workspace& workspace, RecordedEdit edit, double now_ms) {
   if (!begin(workspace, now_ms)) return false;
-  const Pose before = whole_pose_of(start_);
+  const Deformation before = start_;
   start_ = edit.prepare(std::move(start_));
-  if (keyframes_play_ && !fits(start_, before)) {
-    workspace.messages.say("Not recorded: the keyframes have no such corners. Add them first.");
+  // Other handles at rest need other maps, and those at the keyframes would be lost meanwhile.
+  if (keyframes_play_ && (!fits(start_, whole_pose_of(before)) || !same_rest(start_, before))) {
+    workspace.messages.say(
+        "Not recorded: the keyframes do not know this handle yet. Set the pin's rotation to Fixed, "
+        "or make the point a corner, and try again.");
     return false;
   }
   edit_ = std::move(edit);

@@ -173,3 +173,23 @@ TEST_CASE("attach tool: Escape and clicks outside all layers attach nothing") {
   CHECK(w.tools.active == ToolId::select);
   CHECK(puppet.desk.steps() == steps);
 }
+
+TEST_CASE("A layer without keyframes is posed while the others keep the displayed time") {
+  Puppet puppet;
+  Workspace& w = puppet.w;
+  puppet.edit(0);
+  for (const double time : {0.0, 1.0}) {
+    Deformation body = w.shown.own();
+    body.pins[1].pose += Complex(0, 60 * time);
+    REQUIRE(w.commit("Key", with_key(body, time), EditBase::document));
+    puppet.settle();
+  }
+  w.go_to_time(0.5);
+  puppet.edit(1);
+  w.tools.active = ToolId::select;
+  puppet.desk.drag({20, 20}, {30, 40});
+  CHECK(puppet.hat().deformation.has_cage());
+  CHECK(w.shown.timeline.active);
+  CHECK(w.shown.timeline.time == 0.5);
+  CHECK(w.shown.time_of_layers() == 0.5);
+}
