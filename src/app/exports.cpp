@@ -18,7 +18,7 @@ Path in_document_folder(const Document& document, const FileChooser& chooser,
 
 void Exports::answer(Request request) {
   const Path folder = in_folder("").parent_path();
-  if (request == Request::export_picture) dialog_.ask(false, folder);
+  if (request == Request::export_picture) dialog_.ask({}, folder);
   if (request == Request::export_film) dialog_.ask(true, folder);
   if (request == Request::export_again) dialog_.again(folder);
   if (request == Request::copy_picture) copy_picture();

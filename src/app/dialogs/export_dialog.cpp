@@ -71,8 +71,9 @@ std::string missing_picture_message(const Workspace& workspace) {
   return "";
 }
 
-void ExportDialog::ask(bool film, const Path& folder) {
+void ExportDialog::ask(std::optional<bool> asked, const Path& folder) {
   const Document& document = workspace_.document;
+  const bool film = asked.value_or(last_ ? last_->film : plays(document.scene()));
   folder_ = folder;
   if (last_) {
     settings_ = *last_;
@@ -98,7 +99,7 @@ void ExportDialog::ask(bool film, const Path& folder) {
 }
 
 void ExportDialog::again(const Path& folder) {
-  if (!last_) return ask(false, folder);
+  if (!last_) return ask({}, folder);
   ExportSettings repeated = *last_;
   const int last = last_frame_of(workspace_.document.scene());
   repeated.last = last_all_ ? last : std::min(repeated.last, last);

@@ -32,9 +32,10 @@ class ExportDialog {
   ExportDialog(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<void()> wake)
       : workspace_(workspace), jobs_(jobs), chooser_(chooser), estimate_(std::move(wake)) {}
 
-  /// Opens the dialog for a picture or a film. Proposes a file in the folder of the last export, or
-  /// in `folder` before the first export.
-  void ask(bool film, const Path& folder);
+  /// Opens the dialog for a picture or a film; if `film` is not set, for what was exported last, or
+  /// else for a film if the scene moves. Proposes a file in the folder of the last export, or in
+  /// `folder` before the first export.
+  void ask(std::optional<bool> film, const Path& folder);
   /// Repeats the last export, or opens the dialog if there was none.
   void again(const Path& folder);
   /// Forgets the last export. Call this when another document is opened.
