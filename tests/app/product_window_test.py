@@ -198,7 +198,11 @@ class ProductWindowTest(WindowCase):
             head = body["pins"][pin].get("pose", body["pins"][pin]["rest"])
             editor.press_item("attach")
             editor.wait(lambda s: s["tool"] == "attach", "the tool")
-            editor.click(*head)
+            for _ in range(20):  # until the map of the other layer is ready
+                editor.click(*head)
+                time.sleep(1)
+                if editor.state()["tool"] == "select":
+                    break
             editor.wait(lambda s: s["tool"] == "select" and s["modified"], "the attachment")
             before = self.screenshot(editor, "attached-hat")
             layers = self.saved(editor, "attached.json")["layers"]
