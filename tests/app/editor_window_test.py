@@ -348,6 +348,13 @@ class EditorWindowTest(WindowCase):
             os.remove(target)
             editor.key("ctrl+shift+e")
             editor.wait(lambda s: os.path.exists(target), "the export again")
+            # Enter exports after a choice with the mouse, too.
+            self.ask(editor, "ctrl+e")
+            editor.press_item("Format")
+            editor.press_item("JPEG picture")
+            time.sleep(0.3)
+            editor.key("Return")
+            editor.wait(lambda s: os.path.exists(os.path.join(self.work, "out.jpg")), "the export as JPEG")
 
     def test_what_is_exported_is_chosen_without_a_mouse(self):
         target = os.path.join(self.work, "out.png")

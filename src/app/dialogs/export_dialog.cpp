@@ -419,10 +419,12 @@ void ExportDialog::draw() {
   const bool replaces = confirming_ && !message_.empty();
   const float width = px(112);
   begin_dialog_buttons(2 * width + px(8));
-  if (button("Cancel", ButtonKind::secondary, width) || escape_pressed()) open_ = false;
+  const DialogKey key = dialog_key();
+  if (button("Cancel", ButtonKind::secondary, width) || key == DialogKey::escape) open_ = false;
   ImGui::SameLine(0, px(8));
   if (button(replaces ? "Replace" : "Export", replaces ? ButtonKind::danger : ButtonKind::primary,
-             width))
+             width) ||
+      key == DialogKey::enter)
     accept();
   if (!open_ || chooser_.open()) ImGui::CloseCurrentPopup();
   end_dialog();

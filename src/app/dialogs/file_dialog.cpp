@@ -334,10 +334,12 @@ void FileDialog::draw() {
                 : "The extension is added if it is missing.");
   const float width = px(104);
   begin_dialog_buttons(2 * width + px(8));
-  const bool cancelled = button("Cancel", ButtonKind::secondary, width) || escape_pressed();
+  const DialogKey key = dialog_key();
+  const bool cancelled = button("Cancel", ButtonKind::secondary, width) || key == DialogKey::escape;
   ImGui::SameLine(0, px(8));
   const bool pressed = button(confirming_ ? "Replace" : question_.button,
-                              confirming_ ? ButtonKind::danger : ButtonKind::primary, width);
+                              confirming_ ? ButtonKind::danger : ButtonKind::primary, width) ||
+                       key == DialogKey::enter;
   if ((entered || pressed) && name_.empty()) message_ = "Choose a file, or type its name.";
   if ((entered || pressed) && !name_.empty())
     clicked.file = Path(name_).is_absolute() ? Path(name_) : folder_ / name_;

@@ -66,7 +66,8 @@ void Jobs::draw() {
   ImGui::Dummy({width, tall});
   caption(all > 0 ? std::to_string(done) + " of " + std::to_string(all) : "Please wait.");
   begin_dialog_buttons(px(96));
-  const bool cancel = button("Cancel", ButtonKind::secondary, px(96)) || escape_pressed();
+  const bool cancel =
+      button("Cancel", ButtonKind::secondary, px(96)) || dialog_key() == DialogKey::escape;
   if (cancel) {
     abandon();
     workspace_.messages.say("Canceled.");

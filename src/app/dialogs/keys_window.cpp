@@ -199,7 +199,7 @@ void KeysWindow::draw() {
   const bool any = draw_keys(), more = draw_gestures();
   if (!any && !more) muted_text("Nothing found.");
   ImGui::EndChild();
-  const bool escaped = escape_pressed() && !was_waiting_;
+  const bool escaped = dialog_key() == DialogKey::escape && !was_waiting_;
   was_waiting_ = waits_for_key();
   if (escaped) open_ = false;
   if (!open_) stop_waiting();

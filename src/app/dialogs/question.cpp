@@ -54,7 +54,7 @@ void Questions::draw() {
     ImGui::Dummy({0, px(4)});
     for (size_t i = 0; i < answers.size(); ++i) answer_button(i, -1);
   }
-  if (escape_pressed()) given = open_->escape.value_or(answers.size() - 1);
+  if (dialog_key() == DialogKey::escape) given = open_->escape.value_or(answers.size() - 1);
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) given = focused;
   if (given) ImGui::CloseCurrentPopup();
   end_dialog();

@@ -166,10 +166,16 @@ void menu_separator() {
   ImGui::Dummy({0, px(3)});
 }
 
-bool escape_pressed() {
+DialogKey dialog_key() {
   bool& covered = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("covered"));
   const bool was = std::exchange(covered, ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));
-  return !was && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  if (was) return DialogKey::none;
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) return DialogKey::escape;
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  const bool is_taken = context.ActiveIdPreviousFrame != 0 || !context.NavDisableHighlight;
+  return !is_taken && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)
+             ? DialogKey::enter
+             : DialogKey::none;
 }
 
 }  // namespace holomorph

@@ -51,8 +51,10 @@ bool menu_entry(const std::string& label, const std::string& keys, bool checked,
                 bool enabled = true);
 void menu_separator();
 
-/// Whether Escape was pressed to close the current dialog rather than a list that is open in it.
-/// Call this once per frame, after drawing the dialog's items.
-bool escape_pressed();
+/// The key that was pressed to end the current dialog: Escape, or Enter for its default button. None
+/// if a list in the dialog, a text field or the item with the keyboard focus takes the key. Call this
+/// once per frame, after drawing the dialog's items.
+enum class DialogKey { none, escape, enter };
+DialogKey dialog_key();
 
 }  // namespace holomorph
