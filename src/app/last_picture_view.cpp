@@ -101,10 +101,10 @@ void LastPictureView::opened(const Workspace& workspace) {
   waits_ = std::ranges::any_of(
       layers, [](const SharedLayer& layer) { return layer->deformation.has_cage(); });
   opened_ms_ = now_ms();
-  took_ms_ = 0;
-  kept_step_.reset();
+  slowest_ms_ = 0;
+  kept_hash_.clear();
   if (!waits_) return;
-  if (auto picture = last_picture_of(hash_of(workspace.document.scene()))) {
+  if (auto picture = last_picture_of(workspace.document.file_hash())) {
     texture_.emplace(picture->image.width, picture->image.height, picture->image.pixels.data());
     box_ = picture->box;
   }
@@ -124,17 +124,17 @@ void LastPictureView::update(const Workspace& workspace) {
   }
   const Document& document = workspace.document;
   if (!is_settled(workspace)) return;
-  if (took_ms_ == 0) took_ms_ = now_ms() - opened_ms_;
-  const size_t step = document.history().index();
-  const bool slow = std::max(took_ms_, solve_milliseconds(workspace)) >= kSlowMs;
-  if (!slow || kept_step_ == step || document.modified() || job_ || workspace.at_rest()) return;
+  slowest_ms_ = std::max(slowest_ms_, solve_milliseconds(workspace));
+  if (slowest_ms_ < kSlowMs || kept_hash_ == document.file_hash() || document.modified() || job_ ||
+      workspace.at_rest())
+    return;
   // The next session opens at the start of the timeline.
   if (workspace.shown.time_of_layers().value_or(0) > 0) return;
-  kept_step_ = step;
-  keep(workspace, hash_of(document.scene()));
+  keep(workspace);
 }
 
-void LastPictureView::keep(const Workspace& workspace, std::string hash) {
+void LastPictureView::keep(const Workspace& workspace) {
+  kept_hash_ = workspace.document.file_hash();
   std::vector<DrawnLayer> layers;
   const Scene& scene = workspace.document.scene();
   for (size_t i = 0; i < scene.layers.size(); ++i) {
@@ -149,7 +149,7 @@ void LastPictureView::keep(const Workspace& workspace, std::string hash) {
   if (layers.empty()) return;
   job_ = std::make_unique<Job>(
       "Keeping the picture",
-      [layers = std::move(layers), hash = std::move(hash)](Job::Progress& progress) {
+      [layers = std::move(layers), hash = kept_hash_](Job::Progress& progress) {
         const LastPicture picture = picture_of(layers);
         if (!progress.cancelled()) keep_last_picture(hash, picture);
       },

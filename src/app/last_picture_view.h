@@ -30,12 +30,13 @@ class LastPictureView {
   void draw(const Workspace& workspace) const;
 
  private:
-  void keep(const Workspace& workspace, std::string hash);
+  void keep(const Workspace& workspace);
 
   std::function<void()> wake_;
   bool waits_ = false, solving_ = false;
-  double opened_ms_ = 0, took_ms_ = 0;
-  std::optional<size_t> kept_step_;  ///< the undo step whose picture was kept
+  double opened_ms_ = 0;
+  double slowest_ms_ = 0;  ///< time in which maps were prepared and solved, at most
+  std::string kept_hash_;  ///< of the file whose picture was kept last
   std::optional<Texture> texture_;
   Box box_;
   std::unique_ptr<Job> job_;

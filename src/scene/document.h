@@ -60,6 +60,9 @@ class Document {
            history_.entries().size() == 1;
   }
 
+  /// The hash of the scene file's text, as it was last read or written; empty without a file.
+  const std::string& file_hash() const { return stamp_.sha256; }
+
   /// Stores a picture before a scene refers to it, or after its file has changed.
   void put_picture(const ImageReference& reference, Picture picture) {
     pictures_.put(reference, std::move(picture));

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scene/formats/scene_json.h"
 #include "scene/preferences.h"
 #include "system/new_file.h"
 
@@ -39,14 +38,6 @@ void forget_oldest() {
 }
 
 }  // namespace
-
-std::string hash_of(const Scene& scene) {
-  try {
-    return sha256_hex(json_of(scene));
-  } catch (const Error&) {  // a file name that is not UTF-8
-    return "";
-  }
-}
 
 std::optional<LastPicture> last_picture_of(const std::string& hash) {
   if (hash.empty() || last_picture_folder().empty()) return {};

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "scene/formats/image.h"
-#include "scene/scene.h"
 
 namespace holomorph {
 
@@ -14,13 +14,12 @@ struct LastPicture {
   Box box;  ///< the part of the plane that it shows
 };
 
-/// The key of a scene's picture: a hash of all that the scene contains. Empty if the
-/// scene cannot be written to a file.
-std::string hash_of(const Scene& scene);
-/// The kept picture; none if there is none, if it is damaged, or if the hash is empty.
+/// The picture that was kept for a scene file with this hash. None if there is none, if it is
+/// damaged, or if the hash is empty.
 std::optional<LastPicture> last_picture_of(const std::string& hash);
-/// Keeps a picture, and of all pictures the 40 newest. Does nothing if the user has no home folder.
-/// Throws Error{failed} or std::filesystem::filesystem_error.
+/// Keeps the picture of a scene file with this hash, and of all pictures the 40 newest. Does
+/// nothing if the hash is empty or the user has no home folder. Throws Error{failed} or
+/// std::filesystem::filesystem_error.
 void keep_last_picture(const std::string& hash, const LastPicture& picture);
 
 }  // namespace holomorph
