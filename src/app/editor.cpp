@@ -99,7 +99,7 @@ class Editor {
     }
     window_.begin_frame(navigates_items(window_focus()));
     PanelSizes sizes = PanelSizes::now();
-    sizes.timeline = timeline_.height(workspace_, sizes);
+    if (workspace_.shown.timeline.visible) sizes.timeline = timeline_.height(workspace_, sizes);
     layout(sizes);
     const double start = now_ms();
     handle_events();

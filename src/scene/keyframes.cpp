@@ -39,24 +39,6 @@ Deformation without_key(Deformation deformation, size_t key) {
   return deformation;
 }
 
-std::pair<Deformation, size_t> with_key_moved(Deformation deformation, size_t key, double time) {
-  Keyframe moved = deformation.keyframes[key];
-  moved.time = std::clamp(time, 0.0, kMaxTime);
-  deformation = without_key(std::move(deformation), key);
-  if (const size_t there = key_at(deformation, moved.time); there < deformation.keyframes.size())
-    deformation = without_key(std::move(deformation), there);
-  const auto next =
-      std::ranges::upper_bound(deformation.keyframes, moved.time, {}, &Keyframe::time);
-  const size_t number = static_cast<size_t>(next - deformation.keyframes.begin());
-  deformation.keyframes.insert(next, std::move(moved));
-  return {std::move(deformation), number};
-}
-
-Deformation with_ease(Deformation deformation, size_t key, Ease ease) {
-  deformation.keyframes[key].ease = ease;
-  return deformation;
-}
-
 std::vector<size_t> playing_keys(const Deformation& deformation) {
   std::vector<size_t> playing;
   for (size_t i = 0; i < deformation.keyframes.size(); ++i)

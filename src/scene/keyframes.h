@@ -13,10 +13,6 @@ size_t key_at(const Deformation& deformation, double time);
 /// new keyframe gets the ease of the keyframe before it.
 Deformation with_key(Deformation deformation, double time);
 Deformation without_key(Deformation deformation, size_t key);
-/// Moves a keyframe to another time, clamped to the allowed range. Replaces any keyframe at that
-/// time. Returns the deformation and the new index of the moved keyframe.
-std::pair<Deformation, size_t> with_key_moved(Deformation deformation, size_t key, double time);
-Deformation with_ease(Deformation deformation, size_t key, Ease ease);
 /// The indices of the keyframes that play, that is, whose poses fit the deformation.
 std::vector<size_t> playing_keys(const Deformation& deformation);
 /// Whether any layer has keyframes.

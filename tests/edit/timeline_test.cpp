@@ -187,15 +187,18 @@ TEST_CASE("Timeline: edits of keyframes do not set poses, even with auto-key") {
   go_to(desk, 0);
   const Pose first = desk.workspace.shown.own().keyframes[0].pose;
   const size_t steps = desk.steps();
-  desk.workspace.commit("Ease", with_ease(desk.workspace.shown.own(), 0, Ease::hold),
-                        EditBase::document);
+  Workspace& w = desk.workspace;
+  const int layer = w.document.scene().layer().id;
+  REQUIRE(w.commit_layers("Ease", with_keys_eased(w.document.scene(), {{layer, 0}}, Ease::hold)));
   CHECK(desk.workspace.shown.own().keyframes[0].pose == first);
   CHECK(desk.steps() == steps + 1);
   CHECK(desk.workspace.shown.timeline.active);
   desk.workspace.update_map({});
   for (const double time : {1.25, 1.5, 1.75}) {
-    desk.workspace.commit_or_amend(
-        "Move key", with_key_moved(desk.workspace.shown.own(), 1, time).first, EditBase::document);
+    const double from = w.shown.own().keyframes[1].time;
+    const auto moved = with_keys_moved(w.document.scene(), {{layer, from}}, {1, from, time});
+    REQUIRE(moved);
+    REQUIRE(w.commit_or_amend_layers("Move key", moved->scene));
     desk.workspace.go_to_time(time);
     desk.workspace.update_map({});
   }
@@ -213,9 +216,13 @@ TEST_CASE("Timeline: two drags of a keyframe are two steps") {
   Workspace& w = desk.workspace;
   for (const double time : {1.25, 1.5}) {
     w.end_mergeable_step();  // as the panel does on a press
-    for (const double nearer : {time - 0.125, time})
-      w.commit_or_amend("Move key", with_key_moved(w.shown.own(), 1, nearer).first,
-                        EditBase::document);
+    for (const double nearer : {time - 0.125, time}) {
+      const double from = w.shown.own().keyframes[1].time;
+      const auto moved = with_keys_moved(
+          w.document.scene(), {{w.document.scene().layer().id, from}}, {1, from, nearer});
+      REQUIRE(moved);
+      REQUIRE(w.commit_or_amend_layers("Move key", moved->scene));
+    }
   }
   CHECK(desk.steps() == steps + 2);
   act(desk, "edit.undo");

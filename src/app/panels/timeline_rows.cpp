@@ -59,12 +59,6 @@ void draw_key(ImDrawList& list, ImVec2 at, float r, ImU32 color, Ease ease, bool
     list.AddPolyline(corners, 4, color, ImDrawFlags_Closed, px(1.5));
 }
 
-void draw_way(ImDrawList& list, float from, float to, float y, ImU32 color, bool held) {
-  if (!held) return list.AddLine({from, y}, {to, y}, color, px(1.5));
-  for (float x = from; x < to; x += px(6))
-    list.AddLine({x, y}, {std::min(x + px(3), to), y}, color, px(1.5));
-}
-
 const Deformation& deformation_of(const Workspace& workspace, size_t layer) {
   return workspace.document.scene().layers[layer]->deformation;
 }
@@ -72,6 +66,17 @@ const Deformation& deformation_of(const Workspace& workspace, size_t layer) {
 bool is_open_layer(const Workspace& workspace, size_t layer) {
   const Layer& it = *workspace.document.scene().layers[layer];
   return it.visible && !it.locked;
+}
+
+/// What a tooltip says about a keyframe.
+std::string text_of(const Workspace& workspace, const KeyId& id) {
+  const Scene& scene = workspace.document.scene();
+  const Deformation& deformation = deformation_of(workspace, layer_index(scene, id.layer));
+  const bool plays = fits(deformation, deformation.keyframes[key_at(deformation, id.time)].pose);
+  char text[120];
+  std::snprintf(text, sizeof text, "%.2f s, frame %d%s", id.time, frame_at(scene, id.time),
+                plays ? "" : ". Cannot be played, because its points differ from the scene's.");
+  return text;
 }
 
 /// Snaps a time to a frame, unless Alt is held.
@@ -190,8 +195,11 @@ void TimelineRows::draw_keys(const Workspace& workspace, const Row& row, float m
     const bool both =
         chosen.contains({id, row.times[i]}) && chosen.contains({id, row.times[i + 1]});
     const bool held = deformation.keyframes[key_at(deformation, row.times[i])].ease == Ease::hold;
-    draw_way(list, ruler_.x(row.times[i]), ruler_.x(row.times[i + 1]), middle,
-             faded(both ? c.accent : c.edge), held);
+    const ImU32 color = faded(both ? c.accent : c.edge);
+    const float from = ruler_.x(row.times[i]), to = ruler_.x(row.times[i + 1]),
+                dash = held ? px(3) : to - from, gap = held ? px(3) : 0;
+    for (float x = from; x < to; x += dash + gap)
+      list.AddLine({x, middle}, {std::min(x + dash, to), middle}, color, px(1.5));
   }
   for (const double time : row.times) {
     const Keyframe& key = deformation.keyframes[key_at(deformation, time)];
@@ -334,9 +342,61 @@ void TimelineRows::draw_menu(Workspace& workspace) {
   end_menu_popup();
 }
 
-void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
+/// The item that all keyframes lie on: what the pointer does there.
+void TimelineRows::handle_keys(Workspace& workspace) {
+  name_item("keys");
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+  hovered_ = hovered_ || hovered || active;
+  const auto under = hovered ? key_under(workspace, pointer) : std::nullopt;
+  if (under && ImGui::IsMouseClicked(1)) {
+    if (!workspace.shown.timeline.keys.contains(*under)) workspace.shown.timeline.keys = {*under};
+    workspace.prune_selection();
+    if (!workspace.shown.timeline.keys.empty()) ImGui::OpenPopup("keys");
+  }
+  if (under && held_ == Held::nothing) tooltip(text_of(workspace, *under));
+  if (ImGui::IsItemActivated() && ImGui::IsMouseClicked(0)) press(workspace, pointer);
+  if (active && held_ != Held::time)
+    follow(workspace, pointer);
+  else if (held_ == Held::keys || held_ == Held::box)
+    release(workspace, pointer);
+}
+
+void TimelineRows::release(Workspace& workspace, ImVec2 pointer) {
+  if (held_ == Held::keys && !moved_ && pressed_key_) {
+    workspace.shown.timeline.keys = {*pressed_key_};
+    workspace.go_to_time(pressed_key_->time);
+  }
+  if (held_ == Held::box && !moved_) {
+    workspace.shown.timeline.keys.clear();
+    workspace.go_to_time(snapped(workspace.document.scene(), ruler_.time(pointer.x)));
+  }
+  drag_.end();
+  held_ = Held::nothing;
+}
+
+/// The current time, over the ruler and all rows.
+void TimelineRows::draw_time(const Workspace& workspace, ImVec2 corner, float left) const {
+  const float right = ruler_.right() + px(kMargin),
+              x = std::round(ruler_.x(workspace.shown.timeline.time));
+  if (x < left || x > right) return;
   const ThemeColors& c = theme_colors();
-  const float width = ImGui::GetContentRegionAvail().x, names = std::min(px(kNames), 0.35f * width);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 color = faded(workspace.shown.timeline.active ? c.text : c.muted);
+  char text[24];
+  std::snprintf(text, sizeof text, "%.2f s", workspace.shown.timeline.time);
+  const ImVec2 size = text_size(Type::caption, text);
+  const float from = std::clamp(x - size.x / 2 - px(6), left, right - size.x - px(12)),
+              bottom = corner.y + px(kRuler) + px(kRow) * static_cast<float>(rows_.size());
+  list.AddLine({x, corner.y + px(20)}, {x, bottom}, color, px(1.5));
+  list.AddRectFilled({from, corner.y + px(3)}, {from + size.x + px(12), corner.y + px(23)}, color,
+                     px(4));
+  draw_text(list, Type::caption, {from + px(6), corner.y + px(5)}, c.panel, text);
+}
+
+void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
+  const float width = ImGui::GetContentRegionAvail().x, names = std::min(px(kNames), 0.35f * width),
+              height = px(kRow);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ruler_.place(workspace, corner.x + names + px(kMargin), corner.x + width - px(kMargin),
                held_ != Held::nothing);
@@ -347,84 +407,29 @@ void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
   rows_ = rows_of(workspace);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   top_ = at.y;
-  const float height = px(kRow), all = height * static_cast<float>(rows_.size());
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const std::vector<Row> rows = rows_;  // clicks may change the layers
-  for (size_t i = 0; i < rows.size(); ++i) {
+  for (size_t i = 0; i < rows_.size(); ++i) {
     const float y = at.y + height * static_cast<float>(i);
     ImGui::PushID(static_cast<int>(i));
-    draw_name(workspace, rows[i], {at.x, y}, names, thumbnails);
+    draw_name(workspace, rows_[i], {at.x, y}, names, thumbnails);
     ImGui::PopID();
-    list.AddLine({at.x, y + height}, {at.x + width, y + height}, faded(c.line));
+    list.AddLine({at.x, y + height}, {at.x + width, y + height}, faded(theme_colors().line));
   }
-  ImGui::SetCursorScreenPos({at.x + names, at.y});
-  ImGui::InvisibleButton("keys", {std::max(1.0f, width - names), std::max(1.0f, all)},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
-  name_item("keys");
-  const ImVec2 pointer = ImGui::GetIO().MousePos;
-  const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
-  hovered_ = hovered_ || hovered || active;
-  if (hovered && ImGui::IsMouseClicked(1)) {
-    if (const auto key = key_under(workspace, pointer)) {
-      if (!workspace.shown.timeline.keys.contains(*key)) workspace.shown.timeline.keys = {*key};
-      workspace.prune_selection();
-      if (!workspace.shown.timeline.keys.empty()) ImGui::OpenPopup("keys");
-    }
-  }
-  if (ImGui::IsItemActivated() && ImGui::IsMouseClicked(0)) press(workspace, pointer);
-  list.PushClipRect({at.x + names, corner.y}, {at.x + width, corner.y + px(kRuler) + px(2000)},
-                    true);
-  for (size_t i = 0; i < rows.size(); ++i)
-    if (i < rows_.size() && rows[i].layer < workspace.document.scene().layers.size())
-      draw_keys(workspace, rows[i], at.y + height * (static_cast<float>(i) + 0.5f));
+  list.PushClipRect({at.x + names, corner.y}, {at.x + width, at.y + px(2000)}, true);
+  for (size_t i = 0; i < rows_.size(); ++i)
+    draw_keys(workspace, rows_[i], at.y + height * (static_cast<float>(i) + 0.5f));
   draw_selection_box(workspace);
-  if (active && held_ != Held::time) {
-    follow(workspace, pointer);
-  } else if (held_ == Held::keys || held_ == Held::box) {
-    if (held_ == Held::keys && !moved_ && pressed_key_) {
-      workspace.shown.timeline.keys = {*pressed_key_};
-      workspace.go_to_time(pressed_key_->time);
-    }
-    if (held_ == Held::box && !moved_) {
-      workspace.shown.timeline.keys.clear();
-      workspace.go_to_time(snapped(workspace.document.scene(), ruler_.time(pointer.x)));
-    }
-    drag_.end();
-    held_ = Held::nothing;
-  }
+  ImGui::SetCursorScreenPos({at.x + names, at.y});
+  ImGui::InvisibleButton(
+      "keys",
+      {std::max(1.0f, width - names), std::max(1.0f, height * static_cast<float>(rows_.size()))},
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  handle_keys(workspace);
   list.PopClipRect();
-  if (hovered && held_ == Held::nothing) {
-    if (const auto key = key_under(workspace, pointer)) {
-      const Deformation& deformation =
-          deformation_of(workspace, layer_index(workspace.document.scene(), key->layer));
-      char text[120];
-      std::snprintf(text, sizeof text, "%.2f s, frame %d%s", key->time,
-                    frame_at(workspace.document.scene(), key->time),
-                    fits(deformation, deformation.keyframes[key_at(deformation, key->time)].pose)
-                        ? ""
-                        : ". Cannot be played, because its points differ from the scene's.");
-      tooltip(text);
-    }
-  }
   draw_menu(workspace);
   ImGui::EndChild();
   ImGui::PopStyleVar(2);
-  // The current time, over the ruler and all rows.
-  const float x = std::round(ruler_.x(workspace.shown.timeline.time));
-  ImDrawList& over = *ImGui::GetWindowDrawList();
-  if (x >= corner.x + names && x <= corner.x + width) {
-    const bool shown = workspace.shown.timeline.active;
-    char text[24];
-    std::snprintf(text, sizeof text, "%.2f s", workspace.shown.timeline.time);
-    const ImVec2 size = text_size(Type::caption, text);
-    const float left =
-        std::clamp(x - size.x / 2 - px(6), corner.x + names, corner.x + width - size.x - px(12));
-    over.AddLine({x, corner.y + px(20)}, {x, corner.y + px(kRuler) + all},
-                 faded(shown ? c.text : c.muted), px(1.5));
-    over.AddRectFilled({left, corner.y + px(3)}, {left + size.x + px(12), corner.y + px(23)},
-                       faded(shown ? c.text : c.muted), px(4));
-    draw_text(over, Type::caption, {left + px(6), corner.y + px(5)}, c.panel, text);
-  }
+  draw_time(workspace, corner, corner.x + names);
 }
 
 }  // namespace holomorph

@@ -36,9 +36,12 @@ class TimelineRows {
   void draw_keys(const Workspace& workspace, const Row& row, float middle) const;
   void draw_selection_box(const Workspace& workspace);
   void draw_menu(Workspace& workspace);
+  void draw_time(const Workspace& workspace, ImVec2 corner, float left) const;
+  void handle_keys(Workspace& workspace);
   std::optional<KeyId> key_under(const Workspace& workspace, ImVec2 pointer) const;
   void press(Workspace& workspace, ImVec2 pointer);
   void follow(Workspace& workspace, ImVec2 pointer);
+  void release(Workspace& workspace, ImVec2 pointer);
   void select_in_box(Workspace& workspace, ImVec2 to);
 
   TimeRuler ruler_;
