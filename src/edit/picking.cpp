@@ -32,6 +32,21 @@ std::optional<Complex> rest_at(const Workspace& workspace, Complex z) {
   return found->in(mesh, mesh.vertices);
 }
 
+std::optional<Complex> rest_in_layer(const Workspace& workspace, size_t layer, Complex px) {
+  const Scene& scene = workspace.document.scene();
+  const Deformation& deformation =
+      layer == scene.edited ? workspace.shown.deformation() : scene.layers[layer]->deformation;
+  const Complex z = workspace.layer_view(layer).plane_at_px(px);
+  if (!deformation.has_cage()) return z;
+  const LiveMap& map = workspace.maps.of(scene.layers[layer]->id);
+  if (map.has_map()) {
+    const Mesh& mesh = *map.drawn();
+    if (const auto found = locate(mesh, as_span(map.map().f), z))
+      return found->in(mesh, mesh.vertices);
+  }
+  return encloses(outline_of(deformation.rest), z) ? std::nullopt : std::optional(z);
+}
+
 bool is_in_hole(const Workspace& workspace, Complex z) {
   if (!workspace.map().has_map() || rest_at(workspace, z)) return false;
   const Mesh& mesh = *workspace.map().prepared()->mesh;

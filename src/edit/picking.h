@@ -8,6 +8,10 @@ namespace holomorph {
 /// The rest position of the picture point that is displayed at z. None if z is outside the picture,
 /// or if a pose has no map yet.
 std::optional<Complex> rest_at(const Workspace& workspace, Complex z);
+/// The rest position of the point of a layer's picture that is displayed at a position of the
+/// canvas, in window px. Outside the cage, the picture does not move. None if the posed picture
+/// does not cover the position, even if it would at rest.
+std::optional<Complex> rest_in_layer(const Workspace& workspace, size_t layer, Complex px);
 /// Whether z is in a hole of the picture as it is shown.
 bool is_in_hole(const Workspace& workspace, Complex z);
 

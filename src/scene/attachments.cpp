@@ -157,7 +157,7 @@ Similarity placement_of(const Scene& scene, size_t layer, const ParentMotion& mo
 
 std::pair<Attachment, Scene> attachment_to(Scene scene, const AttachmentTarget& target) {
   Layer parent = *scene.layers[target.layer];
-  Attachment attachment{parent.id, target.to, 0, target.place};
+  Attachment attachment{parent.id, target.to, 0, target.place, {}};
   if (target.to == Attachment::To::pin)
     attachment.handle = id_of(parent.deformation.pins, target.handle);
   if (target.to == Attachment::To::stroke)
@@ -166,11 +166,10 @@ std::pair<Attachment, Scene> attachment_to(Scene scene, const AttachmentTarget& 
 }
 
 Scene with_attachment(Scene scene, size_t layer, const Attachment& attachment,
-                      const Similarity& placed, const Similarity& parent,
-                      const Similarity& motion) {
+                      const Similarity& placement) {
   Layer changed = *scene.layers[layer];
   changed.attachment = attachment;
-  changed.placement = composed(inverse(composed(parent, motion)), placed);
+  changed.placement = placement;
   return with_layer_at(std::move(scene), layer, std::move(changed));
 }
 

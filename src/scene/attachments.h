@@ -62,11 +62,10 @@ struct AttachmentTarget {
 };
 /// The attachment to a target, and the scene with an id for its handle.
 std::pair<Attachment, Scene> attachment_to(Scene scene, const AttachmentTarget& target);
-/// The scene with a layer attached, where it lies now: `placed` is where its plane lies, and
-/// `parent` where its parent's does. `motion` is that of the new anchor. The parent must not follow
-/// the layer.
+/// The scene with a layer attached to a parent that does not follow it. `placement` is where the
+/// layer would lie if the parent were at rest; see Layer::placement.
 Scene with_attachment(Scene scene, size_t layer, const Attachment& attachment,
-                      const Similarity& placed, const Similarity& parent, const Similarity& motion);
+                      const Similarity& placement = {});
 /// The scene with a layer that follows nothing and stays where it lies now.
 Scene detached(Scene scene, size_t layer, const Similarity& placed);
 /// Detaches all layers whose parent, or the parent's pin or stroke, no longer exists. They stay

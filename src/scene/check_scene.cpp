@@ -163,8 +163,9 @@ bool has_extras(const Deformation& deformation) {
 bool has_extras(const Scene& scene) {
   return !scene.extra.empty() || !scene.animation_extra.empty() ||
          std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
-           return !layer->extra.empty() || (layer->image && !layer->image->extra.empty()) ||
-                  has_extras(layer->deformation);
+           return !layer->extra.empty() ||
+                  (layer->attachment && !layer->attachment->extra.empty()) ||
+                  (layer->image && !layer->image->extra.empty()) || has_extras(layer->deformation);
          });
 }
 

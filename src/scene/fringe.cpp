@@ -3,7 +3,6 @@
 #include "scene/fringe.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -66,24 +65,22 @@ Box faint_box(PolygonView polygon, const Image& picture, const std::function<boo
 }
 
 /// Adds the mesh inside a polygon to the fringe.
-void add_part(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygon& boundary,
-              const std::map<std::pair<double, double>, int>& known) {
+void add_part(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygon& boundary) {
   const Mesh part = domain_mesh(inside, {kFringeVertices});
   const int base = static_cast<int>(fringe.mesh.vertices.size());
   const Loops loops = mesh.boundary_loops();
   for (const Complex& z : part.vertices) {
     fringe.mesh.vertices.push_back(z);
-    const auto same = known.find({z.real(), z.imag()});
-    if (same != known.end()) {
-      fringe.followers.push_back({same->second, same->second, 0});
-      continue;
-    }
     const Index edge = nearest_on_polygon(boundary, z).edge;
     const int a = mesh.boundary[static_cast<size_t>(edge)],
               b = mesh.boundary[static_cast<size_t>(loops.next(edge))];
     const Complex from = mesh.vertices[static_cast<size_t>(a)],
-                  way = mesh.vertices[static_cast<size_t>(b)] - from;
-    fringe.followers.push_back({a, b, (z - from) / way});
+                  to = mesh.vertices[static_cast<size_t>(b)];
+    // The vertices of the boundary itself follow exactly, so that no gap opens.
+    if (z == from || z == to)
+      fringe.followers.push_back(z == from ? Fringe::Follower{a, a} : Fringe::Follower{b, b});
+    else
+      fringe.followers.push_back({a, b, (z - from) / (to - from)});
   }
   for (Triangle t : part.triangles) {
     for (int& corner : t) corner += base;
@@ -156,20 +153,15 @@ std::shared_ptr<const Fringe> fringe_of(const Mesh& mesh, const Image& picture,
                      {outer.right + kMargin, outer.bottom - kMargin},
                      {outer.right + kMargin, outer.top + kMargin},
                      {outer.left - kMargin, outer.top + kMargin}};
-  std::map<std::pair<double, double>, int> known;
-  for (const int v : mesh.boundary) {
-    const Complex z = mesh.vertices[static_cast<size_t>(v)];
-    known[{z.real(), z.imag()}] = v;
-  }
   auto fringe = std::make_shared<Fringe>();
   try {
     const PolygonView loops(boundary);
     Polygon around{frame, {static_cast<Index>(frame.size())}};
     const auto outline = loops.loop(0);
     around.points.insert(around.points.end(), outline.begin(), outline.end());
-    add_part(*fringe, around, mesh, boundary, known);
+    add_part(*fringe, around, mesh, boundary);
     for (Index hole = 1; hole < loops.loops().count() && keep_going(); ++hole)
-      add_part(*fringe, loops.loop(hole), mesh, boundary, known);
+      add_part(*fringe, loops.loop(hole), mesh, boundary);
   } catch (const Error&) {
     return nullptr;  // such a boundary has no mesh around it
   }

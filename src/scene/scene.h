@@ -32,6 +32,7 @@ struct Attachment {
   To to = To::place;
   int handle = 0;      ///< the id of the parent's pin or stroke
   Complex place = {};  ///< on the parent's picture, at rest
+  Extra extra = {};
   bool operator==(const Attachment&) const = default;
 };
 

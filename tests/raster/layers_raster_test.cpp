@@ -283,7 +283,7 @@ namespace {
 TwoLayers attached_layers() {
   TwoLayers two;
   auto [attachment, scene] = attachment_to(two.scene, {0, Attachment::To::place, 0, {30, 20}});
-  two.scene = with_attachment(std::move(scene), 1, attachment, {}, {}, {});
+  two.scene = with_attachment(std::move(scene), 1, attachment);
   return two;
 }
 

@@ -40,9 +40,9 @@ std::vector<AttachmentTarget> all_targets() {
 /// The scene with layer 1 attached to a target and layer 2 to a place of layer 1.
 Scene chained(const AttachmentTarget& target) {
   auto [attachment, scene] = attachment_to(three_layers(), target);
-  scene = with_attachment(std::move(scene), 1, attachment, {}, {}, {});
+  scene = with_attachment(std::move(scene), 1, attachment);
   auto [second, both] = attachment_to(scene, {1, Attachment::To::place, 0, {5, 5}});
-  return with_attachment(std::move(both), 2, second, {}, {}, {});
+  return with_attachment(std::move(both), 2, second);
 }
 
 double distance(const Similarity& a, const Similarity& b) {
@@ -95,7 +95,7 @@ TEST_CASE("attachments: an attached layer stays where it is, however its parent 
     auto [attachment, with_id] = attachment_to(std::move(scene), target);
     const Anchor anchor(prepared->mesh, with_id.layers[0]->deformation, attachment);
     const Similarity motion = anchor.motion(positions);
-    scene = with_attachment(with_id, 1, attachment, before, {}, motion);
+    scene = with_attachment(with_id, 1, attachment, composed(inverse(motion), before));
     CHECK(distance(placed(scene, 1, *prepared, bend), before) < 1e-9);
     // It turns by what the parent turns there.
     if (target.to != Attachment::To::stroke && target.place.imag() < 200) {
@@ -121,6 +121,13 @@ TEST_CASE("attachments: files keep them by ids") {
     CHECK(follows(again, 0, 2));
     CHECK_FALSE(follows(again, 2, 0));
   }
+}
+
+TEST_CASE("attachments: files keep what this version does not know") {
+  std::string text = json_of(chained({0, Attachment::To::pin, 1}));
+  const std::string known = "\"pin\": 1";
+  text.replace(text.find(known), known.size(), known + ", \"delay\": 0.5");
+  CHECK(json_of(scene_from_json(text, "the file")).find("\"delay\": 0.5") != std::string::npos);
 }
 
 TEST_CASE("attachments: a pin keeps what is attached to it when other pins are deleted") {
@@ -172,7 +179,7 @@ TEST_CASE("attachments: files with cycles or missing parents are refused") {
 
   Scene circle = chained({0, Attachment::To::place, 0, {9, 9}});
   Layer first = *circle.layers[0];
-  first.attachment = Attachment{2, Attachment::To::place, 0, {1, 1}};
+  first.attachment = Attachment{2, Attachment::To::place, 0, {1, 1}, {}};
   circle = with_layer_at(std::move(circle), 0, first);
   CHECK_THROWS_WITH(check_attachments(circle), Catch::Contains("attached to itself"));
   CHECK_THROWS_WITH(scene_from_json(json_of(circle), "the file"),

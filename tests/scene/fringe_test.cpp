@@ -65,7 +65,7 @@ TEST_CASE("fringe: it covers the faint pixels, and follows similarities exactly"
   }
 }
 
-TEST_CASE("fringe: near the cage, it goes along with the nearest edge") {
+TEST_CASE("fringe: near the cage, it follows the nearest edge") {
   const Image image = glowing_disk(25, 25);
   const Mesh mesh = domain_mesh(around_disk(24, 35), {500});
   const auto fringe = fringe_of(mesh, image);

@@ -93,8 +93,7 @@ class AngleTool final : public Tool {
     }
     if (mark_ && mark_->hovered == CornerMark::Region::ring)
       return "Drag the ring to turn the corner, as many times around as you like; Ctrl-drag to "
-             "record "
-             "motion";
+             "record motion";
     if (mark_ && mark_->hovered != CornerMark::Region::none)
       return "Drag the arm to open or close the corner; Ctrl-drag to record motion";
     if (hover_)

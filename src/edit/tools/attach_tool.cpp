@@ -41,16 +41,6 @@ double distance_to(const Points& line, Complex px) {
   return Polyline(without_repeats(line), false).nearest(px).distance;
 }
 
-/// The rest position of the point of a layer that is displayed at a position of the canvas.
-Complex rest_of_layer(const Workspace& w, size_t number, Complex px) {
-  const Complex z = w.layer_view(number).plane_at_px(px);
-  const LiveMap& map = w.maps.of(w.document.scene().layers[number]->id);
-  if (!map.has_map()) return z;
-  const Mesh& mesh = *map.drawn();
-  const auto found = locate(mesh, as_span(map.map().f), z);
-  return found ? found->in(mesh, mesh.vertices) : z;
-}
-
 class AttachTool final : public Tool {
  public:
   ToolId id() const override { return ToolId::attach; }
@@ -102,7 +92,7 @@ class AttachTool final : public Tool {
     const Scene& scene = w.document.scene();
     for (size_t i = scene.layers.size(); i-- > 0 && !target_;) {
       if (follows(scene, i, scene.edited) || !shows_at(w, i, input.px)) continue;
-      target_ = {i, Attachment::To::place, 0, rest_of_layer(w, i, input.px)};
+      target_ = {i, Attachment::To::place, 0, *rest_in_layer(w, i, input.px)};
       marks_.push_back({{input.px}, false, true});
     }
   }
@@ -114,9 +104,11 @@ class AttachTool final : public Tool {
     if (!w.require_placements()) return;
     if (parent.deformation.has_cage() && !w.maps.of(parent.id).has_map())
       return w.messages.say("The other layer is being prepared. Try again in a moment.");
+    // The layer stays where it lies now.
+    const Similarity carried =
+        composed(w.placement(target_->layer), w.maps.motion(parent, attachment));
     const Scene attached =
-        with_attachment(scene, layer, attachment, w.placement(layer), w.placement(target_->layer),
-                        w.maps.motion(parent, attachment));
+        with_attachment(scene, layer, attachment, composed(inverse(carried), w.placement(layer)));
     if (!w.commit_layers("Attach layer", attached)) return;
     w.messages.say(title_of_layer(attached, layer) + " now follows " +
                    attachment_text(attached, layer) + ".");

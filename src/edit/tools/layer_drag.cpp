@@ -1,8 +1,8 @@
 // A layer without a cage gets a box when it is moved.
 #include "edit/tools/layer_drag.h"
 
-#include "core/geometry/polyline.h"
 #include "edit/edits/method_edits.h"
+#include "edit/picking.h"
 #include "edit/tools/tool.h"
 #include "scene/keyframes.h"
 
@@ -21,18 +21,6 @@ bool is_opaque_at(const Image& picture, Complex rest) {
             row = picture.height - 1 - static_cast<int>(std::floor(rest.imag()));
   return column >= 0 && row >= 0 && column < picture.width && row < picture.height &&
          picture.at(column, row)[3] >= kVisibleAlpha;
-}
-
-/// Whether a layer shows a visible pixel at z.
-bool shows(const LiveMap& map, const Deformation& deformation, const Image& picture, Complex z) {
-  if (map.has_map() && deformation.has_cage()) {
-    const Mesh& mesh = *map.drawn();
-    if (const auto found = locate(mesh, as_span(map.map().f), z))
-      return is_opaque_at(picture, found->in(mesh, mesh.vertices));
-  }
-  // Outside of the cage, the picture does not move.
-  const bool inside = deformation.has_cage() && encloses(outline_of(deformation.rest), z);
-  return !inside && is_opaque_at(picture, z);
 }
 
 }  // namespace
@@ -59,13 +47,11 @@ Deformation with_box(Deformation deformation, const Image& picture) {
 }
 
 bool shows_at(const Workspace& w, size_t number, Complex px) {
-  const Scene& scene = w.document.scene();
-  const Layer& layer = *scene.layers[number];
+  const Layer& layer = *w.document.scene().layers[number];
   const Image* picture = w.document.pictures().of(layer);
   if (!layer.visible || !picture) return false;
-  const Deformation& deformation =
-      number == scene.edited ? w.shown.deformation() : layer.deformation;
-  return shows(w.maps.of(layer.id), deformation, *picture, w.layer_view(number).plane_at_px(px));
+  const std::optional<Complex> rest = rest_in_layer(w, number, px);
+  return rest && is_opaque_at(*picture, *rest);
 }
 
 std::optional<size_t> layer_at(const Workspace& w, Complex px) {

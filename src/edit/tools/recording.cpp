@@ -130,8 +130,7 @@ bool Recording::start(Workspace& workspace, RecordedEdit edit, double now_ms) {
     return false;
   }
   edit_ = std::move(edit);
-  constexpr double kReach = 3.4;  // of the rings, in multiples of the picking distance
-  turn_reach_ = kReach * workspace.display.handle_px / workspace.layer_view().zoom;
+  turn_reach_ = kRingRadius * workspace.display.handle_px / workspace.layer_view().zoom;
   const Pose pose = whole_pose_of(dragged(base_at(workspace, start_time_), 0));
   samples_ = {{start_time_, 0, pose, positions_in(pose, turn_reach_)}};
   workspace.shown.timeline.playing = false;

@@ -5,6 +5,9 @@
 
 namespace holomorph {
 
+/// Radius of a pin's ring, in multiples of the picking distance.
+inline constexpr double kRingRadius = 3.4;
+
 /// What a recorded gesture does to a deformation.
 struct RecordedEdit {
   /// Makes a deformation ready for the edit, for example by fixing a pin's rotation.

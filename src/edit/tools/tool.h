@@ -41,8 +41,6 @@ struct ToolOverlay {
 };
 
 inline constexpr double kDragThresholdPx = 3;
-/// Radius of a pin's ring, in multiples of the picking distance.
-inline constexpr double kRingRadius = 3.4;
 
 /// A tool determines what the pointer does on the canvas. Tools live as long as the editor. The
 /// only state that they keep is an unfinished gesture.

@@ -131,6 +131,7 @@ Attachment read_attachment(const Reader& reader) {
   } else {
     attachment.place = reader["place"].point();
   }
+  attachment.extra = reader.others({"layer", "pin", "stroke", "place"});
   return attachment;
 }
 
@@ -274,6 +275,7 @@ Json attachment_json(const Attachment& attachment) {
     item["stroke"] = attachment.handle;
   else
     item["place"] = point_json(attachment.place);
+  add_extra(item, attachment.extra);
   return item;
 }
 
