@@ -27,6 +27,7 @@
 #include "edit/content.h"
 #include "edit/key_focus.h"
 #include "edit/picking.h"
+#include "edit/tools/layer_drag.h"
 
 namespace holomorph {
 namespace {
@@ -331,6 +332,11 @@ class Editor {
     }
     if (is_before(workspace_.display, input.px) && !current_tool().busy())
       input.pressed = input.double_clicked = input.inside = false;
+    if (input.pressed && workspace_.tools.active == ToolId::select &&
+        workspace_.tools.drags_layers) {
+      leave_closed_layer(workspace_, input.px);
+      input.position = workspace_.layer_view().plane_at_px(input.px);
+    }
     if (input.pressed && !workspace_.require_open_layer())
       input.pressed = input.double_clicked = input.inside = false;
     if (input.pressed) workspace_.shown.timeline.keys.clear();  // so that Delete removes handles
@@ -378,6 +384,7 @@ class Editor {
     last_picture_.opened(workspace_);
     panel_focus_.leave();
     layers_.forget();
+    timeline_.forget();
     fit_ = opened_ = true;
     if (!workspace_.document.empty()) samples_.pause();
   }

@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "raster/compose.h"
 #include "raster/raster.h"
+#include "scene/attachments.h"
 #include "scene/fringe.h"
 
 namespace holomorph {
@@ -27,9 +28,12 @@ struct DrawnLayer {
   LayerInk ink;
 };
 
-bool has_answer(const Workspace& workspace, const Layer& layer) {
-  return !layer.visible || !layer.deformation.has_cage() || workspace.maps.of(layer.id).has_map() ||
-         workspace.maps.of(layer.id).error();
+/// Whether a layer can be displayed, together with what follows it.
+bool has_answer(const Workspace& workspace, size_t number) {
+  const Scene& scene = workspace.document.scene();
+  const Layer& layer = *scene.layers[number];
+  return (!layer.visible && !carries_others(scene, number)) || !layer.deformation.has_cage() ||
+         workspace.maps.of(layer.id).has_map() || workspace.maps.of(layer.id).error();
 }
 
 /// The time in which the displayed maps were prepared and solved.
@@ -43,9 +47,9 @@ double solve_milliseconds(const Workspace& workspace) {
 }
 
 bool has_answers(const Workspace& workspace) {
-  return std::ranges::all_of(workspace.document.scene().layers, [&](const SharedLayer& layer) {
-    return has_answer(workspace, *layer);
-  });
+  for (size_t i = 0; i < workspace.document.scene().layers.size(); ++i)
+    if (!has_answer(workspace, i)) return false;
+  return true;
 }
 
 bool is_settled(const Workspace& workspace) {
@@ -137,6 +141,11 @@ void LastPictureView::keep(const Workspace& workspace) {
   kept_hash_ = workspace.document.file_hash();
   std::vector<DrawnLayer> layers;
   const Scene& scene = workspace.document.scene();
+  if (scene.background.fill == Background::Fill::original)
+    for (const SharedLayer& layer : scene.layers)
+      if (const auto picture = workspace.document.pictures().shared(*layer);
+          picture && layer->visible)
+        layers.push_back({nullptr, {}, picture, {}, {}});
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     const auto picture = workspace.document.pictures().shared(layer);

@@ -141,24 +141,25 @@ void draw_frames(const Path& file, Job::Progress& progress,
 }  // namespace
 
 void Samples::take_frames() {
-  if (!playing_ || !drawn_frames_) return;
+  if (!drawn_frames_) return;
   std::vector<std::pair<size_t, Image>> ready;
   {
     const std::lock_guard lock(drawn_frames_->mutex);
     ready.swap(drawn_frames_->images);
   }
-  Motion& motion = motions_[*playing_];
   for (const auto& [sample, image] : ready)
-    if (sample == *playing_)
-      motion.frames.emplace_back(image.width, image.height, image.pixels.data());
+    motions_[sample].frames.emplace_back(image.width, image.height, image.pixels.data());
   if (drawing_motion_ && drawing_motion_->ended()) {
-    motion.complete = true;
+    if (drawing_motion_->cancelled())
+      motions_.erase(drawn_sample_);
+    else
+      motions_[drawn_sample_].complete = true;
     drawing_motion_.reset();
   }
 }
 
 void Samples::start_motion(size_t sample) {
-  drawing_motion_.reset();  // cancels the drawing of another sample's motion
+  drawn_sample_ = sample;
   motions_[sample] = {};
   drawn_frames_ = std::make_shared<DrawnThumbnails>();
   drawing_motion_ = std::make_unique<Job>(
@@ -182,8 +183,9 @@ void Samples::play(std::optional<size_t> sample) {
     if (drawing_motion_) drawing_motion_->cancel();
     playing_ = sample;
     since_ms_ = now_ms();
-    if (sample && !motions_[*sample].complete) start_motion(*sample);
   }
+  // One motion is drawn at a time. A canceled one ends soon, and then wakes the window.
+  if (playing_ && !drawing_motion_ && !motions_[*playing_].complete) start_motion(*playing_);
   if (playing_ && motions_[*playing_].frames.size() > 1) wake_();
 }
 

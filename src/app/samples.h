@@ -66,7 +66,8 @@ class Samples {
   std::shared_ptr<DrawnThumbnails> drawn_;
   std::unique_ptr<Job> drawing_;
   std::map<size_t, Motion> motions_;
-  std::shared_ptr<DrawnThumbnails> drawn_frames_;  ///< those of `playing_`
+  std::shared_ptr<DrawnThumbnails> drawn_frames_;
+  size_t drawn_sample_ = 0;  ///< whose motion is drawn
   std::unique_ptr<Job> drawing_motion_;
   std::optional<size_t> playing_;
   double since_ms_ = 0;  ///< when the pointer arrived

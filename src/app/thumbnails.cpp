@@ -87,8 +87,9 @@ const Texture* Thumbnails::of_picture(const std::shared_ptr<const Image>& pictur
   if (!picture) return nullptr;
   Entry& entry = entries_[{{}, picture.get()}];
   entry.used = ++clock_;
-  if (!entry.picture) {
+  if (entry.picture.lock() != picture) {
     entry.picture = picture;
+    entry.ready = false;
     waiting_.emplace_back(Key{{}, picture.get()},
                           [picture] { return reduced(*picture, kLongestSide / 2); });
     start_next();
@@ -116,7 +117,8 @@ void Thumbnails::start_next() {
   if (job_ || waiting_.empty()) return;
   auto [key, draw] = std::move(waiting_.back());
   waiting_.pop_back();
-  while (waiting_.size() > kMostWaiting) waiting_.pop_front();
+  for (; waiting_.size() > kMostWaiting; waiting_.pop_front())
+    entries_.erase(waiting_.front().first);  // the next request draws it
   job_ = std::make_unique<Job>(
       "Drawing a thumbnail",
       [key = key, draw = draw, done = done_, wake = wake_](Job::Progress& progress) {
@@ -134,6 +136,9 @@ void Thumbnails::start_next() {
 }
 
 void Thumbnails::forget_oldest() {
+  std::erase_if(entries_, [](const auto& entry) {
+    return entry.first.picture && entry.second.picture.expired();
+  });
   while (entries_.size() > kMostThumbnails)
     entries_.erase(std::ranges::min_element(entries_, {},
                                             [](const auto& entry) { return entry.second.used; }));

@@ -39,7 +39,7 @@ class Thumbnails {
   struct Entry {
     Texture texture;
     std::filesystem::file_time_type time{};
-    std::shared_ptr<const Image> picture;  ///< keeps the address in the key unique
+    std::weak_ptr<const Image> picture;  ///< the picture whose address is in the key
     unsigned used = 0;
     bool ready = false;
   };

@@ -47,21 +47,22 @@ void pose_cage_as_displayed(Workspace& w, Deformation& deformation) {
   for (size_t i = 0; i < in_keys.size(); ++i)
     if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
       key.cage = posed(key.cage, in_keys[i]);
-  deformation.pose = posed(deformation.pose, std::move(images));
+  // At a time, the map of the document's own pose is not known.
+  if (!w.shown.is_timed()) deformation.pose = posed(deformation.pose, std::move(images));
 }
 
 }  // namespace
 
 void choose_method(Workspace& w, const std::string& id) {
-  const Deformation before = w.shown.deformation();
+  const Deformation before = w.shown.own();
   const Method& method = method_named(id);
-  if (chosen_method(before).id == id) return;
+  if (chosen_method(before).id == id || !w.require_keyframe_maps()) return;
   Deformation after = with_chosen_method(before, id);
   const LiveMap& map = w.map();
   if (pins_act_alone(chosen_method(before), before) && !pins_act_alone(method, before) &&
       map.has_map() && map.posed() && same_rest(*map.posed(), before))
     pose_cage_as_displayed(w, after);
-  w.commit("Method: " + method.label, std::move(after));
+  w.commit("Method: " + method.label, std::move(after), EditBase::document);
 }
 
 void prevent_folds(Workspace& w, bool on) {

@@ -47,6 +47,14 @@ std::optional<Complex> rest_in_layer(const Workspace& workspace, size_t layer, C
   return encloses(outline_of(deformation.rest), z) ? std::nullopt : std::optional(z);
 }
 
+bool is_visible_at(const Image& picture, Complex rest) {
+  constexpr int kLeastAlpha = 13;  // 5 % of 255
+  const int column = static_cast<int>(std::floor(rest.real())),
+            row = picture.height - 1 - static_cast<int>(std::floor(rest.imag()));
+  return column >= 0 && row >= 0 && column < picture.width && row < picture.height &&
+         picture.at(column, row)[3] >= kLeastAlpha;
+}
+
 bool is_in_hole(const Workspace& workspace, Complex z) {
   if (!workspace.map().has_map() || rest_at(workspace, z)) return false;
   const Mesh& mesh = *workspace.map().prepared()->mesh;

@@ -12,6 +12,8 @@ std::optional<Complex> rest_at(const Workspace& workspace, Complex z);
 /// canvas, in window px. Outside the cage, the picture does not move. None if the posed picture
 /// does not cover the position, even if it would at rest.
 std::optional<Complex> rest_in_layer(const Workspace& workspace, size_t layer, Complex px);
+/// Whether an eye sees the picture at a rest position: its alpha is at least 5 %.
+bool is_visible_at(const Image& picture, Complex rest);
 /// Whether z is in a hole of the picture as it is shown.
 bool is_in_hole(const Workspace& workspace, Complex z);
 

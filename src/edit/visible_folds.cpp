@@ -8,20 +8,13 @@
 #include <numeric>
 
 #include "core/maps/injectivity.h"
+#include "edit/picking.h"
 
 namespace holomorph {
 namespace {
 
-constexpr int kLeastAlpha = 13;     // 5 % of 255
 constexpr double kPixel = 1;        // plane units squared
 constexpr int kSamplesPerSide = 8;  // of a triangle
-
-bool is_visible_at(const Image& picture, Complex z) {
-  const int column = static_cast<int>(std::floor(z.real())),
-            row = picture.height - 1 - static_cast<int>(std::floor(z.imag()));
-  return column >= 0 && row >= 0 && column < picture.width && row < picture.height &&
-         picture.at(column, row)[3] >= kLeastAlpha;
-}
 
 double twice_area(const VectorXc& f, const Triangle& t) {
   return cross(f[t[1]] - f[t[0]], f[t[2]] - f[t[0]]);
@@ -32,10 +25,8 @@ class Sets {
  public:
   explicit Sets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
   int root(int v) {
-    auto& parent = parent_;
-    while (parent[static_cast<size_t>(v)] != v)
-      v = parent[static_cast<size_t>(v)] =
-          parent[static_cast<size_t>(parent[static_cast<size_t>(v)])];
+    const auto parent = [this](int of) -> int& { return parent_[static_cast<size_t>(of)]; };
+    while (parent(v) != v) v = parent(v) = parent(parent(v));
     return v;
   }
   void join(int a, int b) { parent_[static_cast<size_t>(root(a))] = root(b); }
@@ -131,7 +122,9 @@ void FoldFinder::find(const LiveMap& map) {
   folds_ = visible_folds(*mesh_, f_, visible_);
   // Around a branch point, the picture winds more than once without a flipped triangle.
   const Injectivity& found = map.injectivity();
-  if (!folds_.empty() || !found.folds() || found.folds_at.empty()) return;
+  const bool flips = std::ranges::any_of(mesh_->triangles,
+                                         [&](const Triangle& t) { return twice_area(f_, t) < 0; });
+  if (flips || !found.folds() || found.folds_at.empty()) return;
   const auto near = locate(*mesh_, as_span(f_), found.folds_at.front());
   if (near && visible_[static_cast<size_t>(near->triangle)])
     folds_.push_back({found.folds_at.front(), 0, {}});

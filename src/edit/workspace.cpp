@@ -179,7 +179,6 @@ bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
 /// Resets the state that belongs only to the edited layer.
 void Workspace::leave_layer() {
   shown.preview.reset();
-  shown.timeline.keys.clear();
   shown.set_timed({});
   mergeable_selection_.reset();
   selection.clear();

@@ -7,14 +7,15 @@
 
 #include "core/error.h"
 #include "raster/compose.h"
+#include "scene/attachments.h"
 #include "scene/budget.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
 namespace {
 
-/// The key that a layer shows at a time, if it is no in-between: a key at this time, or the first
-/// or last key before or after all others.
+/// The key that a layer shows at a time: the key at this time, or the first or last key before or
+/// after all others. Null between two keys.
 const Keyframe* key_shown_at(const Deformation& deformation, double time) {
   const std::vector<size_t> playing = playing_keys(deformation);
   if (playing.empty()) return nullptr;
@@ -47,9 +48,10 @@ int frames_of_film(const Scene& scene, int first, int last, bool loops) {
   const int all = last - first + 1;
   if (!loops || all < 2) return all;
   const double rate = scene.animation.frames_per_second;
-  for (const SharedLayer& layer : scene.layers) {
-    const Deformation& deformation = layer->deformation;
-    if (!layer->visible || playing_keys(deformation).empty()) continue;
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Deformation& deformation = scene.layers[i]->deformation;
+    const bool shows_motion = scene.layers[i]->visible || carries_others(scene, i);
+    if (!shows_motion || playing_keys(deformation).empty()) continue;
     const Keyframe *from = key_shown_at(deformation, first / rate),
                    *to = key_shown_at(deformation, last / rate);
     if (!from || !to || !look_alike(from->pose, to->pose)) return all;

@@ -5,6 +5,7 @@
 
 #include "edit/edits/method_edits.h"
 #include "edit/picking.h"
+#include "scene/keyframes.h"
 #include "support/desk.h"
 #include "support/seeds.h"
 
@@ -93,6 +94,39 @@ TEST_CASE("Handles stay where they are displayed when the method changes") {
       desk.settle();
     }
   }
+}
+
+TEST_CASE("A change of the method at a time changes no pose, and sets no keyframe") {
+  TestWorkspace desk(shapes::rectangle(200, 200));
+  Workspace& w = desk.workspace;
+  Deformation deformation = desk.deformation();
+  deformation.method = "puppet";
+  deformation.pins = {{{40, 40}, {40, 40}, {}, {}}, {{160, 160}, {160, 160}, {}, {}}};
+  deformation = with_key(std::move(deformation), 0);
+  deformation.pins[1].pose = {150, 190};
+  deformation = with_key(std::move(deformation), 1);
+  w.commit("Keys", deformation);
+  w.shown.timeline.auto_key = true;
+  const auto settle = [&] {
+    for (int i = 0; i < 3000; ++i) {
+      w.update_map({});
+      if (!w.map().busy() && w.map().follow_keys()) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  w.go_to_time(0.5);
+  settle();
+  REQUIRE(w.shown.is_timed());
+  choose_method(w, "cage");
+  CHECK(w.shown.own().method == "cage");
+  CHECK(w.shown.own().pose == deformation.pose);
+  CHECK(w.shown.own().pins == deformation.pins);
+  REQUIRE(w.shown.own().keyframes.size() == 2);
+  CHECK(w.shown.timeline.time == 0.5);
+  CHECK(w.shown.timeline.active);
+  // The cage of the second keyframe has the shape that its pins gave it.
+  const Cage& cage = w.shown.own().keyframes[1].pose.cage;
+  CHECK(std::abs(cage.vertex(2) - Complex(200, 200)) > 5);
 }
 
 TEST_CASE("From a cage to a puppet without pins and back, cage points stay") {

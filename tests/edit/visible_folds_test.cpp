@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/mesh/mesher.h"
+#include "support/desk.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
@@ -63,6 +64,33 @@ TEST_CASE("A fold is found where the picture is opaque, and ignored where it is 
     CHECK(folds(&faint).empty());  // an alpha of 4 %
     if (apart) CHECK(folds(&unseen).empty());
   }
+}
+
+TEST_CASE("A fold in a transparent part is no alarm, although the picture lies on top of it") {
+  TestWorkspace desk(shapes::rectangle(400, 400));
+  Workspace& w = desk.workspace;
+  Deformation deformation = desk.deformation();
+  deformation.method = "mean_value";
+  deformation.pose.segments[0][0] = {330, 300};  // the lower left corner goes across the picture
+  w.commit("Fold", deformation);
+  desk.settle();
+  REQUIRE(w.map().injectivity().folds());
+  Box visible, hidden;  // at rest
+  visible.include({200, 200}), visible.include({400, 400});
+  hidden.include({0, 0}), hidden.include({130, 130});
+  FoldFinder finder;
+  CHECK_FALSE(finder.folds(w.map(), nullptr).empty());
+  CHECK_FALSE(
+      finder.folds(w.map(), std::make_shared<const Image>(with_rectangle(400, hidden))).empty());
+  const auto picture = std::make_shared<const Image>(with_rectangle(400, visible));
+  const std::vector<char> seen = visible_triangles(*w.map().prepared()->mesh, picture.get());
+  const Mesh& mesh = *w.map().prepared()->mesh;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [i, j, k] = mesh.triangles[t];
+    const VectorXc& f = w.map().map().f;
+    if (seen[t]) REQUIRE(cross(f[j] - f[i], f[k] - f[i]) > 0);
+  }
+  CHECK(finder.folds(w.map(), picture).empty());
 }
 
 TEST_CASE("A fold smaller than a pixel is ignored") {

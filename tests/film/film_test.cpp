@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "scene/keyframes.h"
+#include "scene/layers.h"
 #include "scene/motion.h"
 #include "scene/prepared_map.h"
 #include "support/folder.h"
@@ -214,6 +215,16 @@ TEST_CASE("A film that loops leaves out a last frame that equals the first") {
   CHECK(frames_of_film(closed, 0, 23, true) == 24);  // ends before the last key
   CHECK(frames_of_film(closed, 12, 12, true) == 1);
   CHECK(frames_of_film(scene, 0, 12, true) == 13);  // ends at another pose
+  // A hidden layer counts if it moves a visible one.
+  Layer hidden = scene.layer(), rider;
+  hidden.id = 1, hidden.visible = false;
+  rider.id = 2;
+  Scene carried = scene;
+  carried.layers = shared({hidden, rider});
+  CHECK(frames_of_film(carried, 0, 12, true) == 12);
+  rider.attachment = Attachment{1, Attachment::To::place, 0, {20, 15}, {}};
+  carried.layers = shared({hidden, rider});
+  CHECK(frames_of_film(carried, 0, 12, true) == 13);
   const Folder folder;
   const Image image = gray();
   const auto written =

@@ -8,6 +8,7 @@
 #include "scene/document.h"
 #include "scene/formats/scene_json.h"
 #include "scene/keyframes.h"
+#include "scene/last_pictures.h"
 #include "scene/layer_maps.h"
 #include "scene/preferences.h"
 #include "support/complaint.h"
@@ -49,6 +50,43 @@ std::string complaint(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("Behind an opaque picture lies the original, and behind a cut-out nothing") {
+  const Folder folder;
+  Image image(20, 10);
+  std::ranges::fill(image.pixels, std::uint8_t{255});
+  for (const bool opaque : {true, false}) {
+    if (!opaque) image.at(3, 4)[3] = 254;
+    const Path file = folder.path / (opaque ? "photo.png" : "cut-out.png");
+    write_file(file, encode_png(image));
+    CHECK(scene_of_image(file).scene.background.fill ==
+          (opaque ? Background::Fill::original : Background::Fill::transparent));
+  }
+}
+
+TEST_CASE("Last pictures are kept by the hash of their scene, and damaged ones are ignored") {
+  const Folder folder;
+  ::setenv("XDG_STATE_HOME", folder.path.c_str(), 1);
+  LastPicture picture{Image(3, 2), {}};
+  picture.box.include({-1, 2}), picture.box.include({5, 6});
+  picture.image.at(1, 1)[3] = 200;
+  keep_last_picture("abc", picture);
+  const auto found = last_picture_of("abc");
+  REQUIRE(found);
+  CHECK(found->image == picture.image);
+  CHECK(found->box.left == -1);
+  CHECK(found->box.top == 6);
+  CHECK_FALSE(last_picture_of("abd"));
+  CHECK_FALSE(last_picture_of(""));
+  for (int i = 0; i < 45; ++i) keep_last_picture("n" + std::to_string(i), picture);
+  int kept = 0;
+  for (int i = 0; i < 45; ++i) kept += last_picture_of("n" + std::to_string(i)).has_value();
+  CHECK(kept == 40);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(last_picture_folder()))
+    if (entry.is_regular_file()) write_file(entry.path(), "not a picture");
+  for (int i = 0; i < 45; ++i) CHECK_FALSE(last_picture_of("n" + std::to_string(i)));
+  ::unsetenv("XDG_STATE_HOME");
+}
 
 TEST_CASE("Selecting a layer changes only which one is edited") {
   Scene scene = stack();

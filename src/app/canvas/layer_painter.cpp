@@ -58,9 +58,13 @@ void LayerPainter::update_fringe(const LiveMap& map) {
     fringed_ = sought;
     fringe_.reset();
     renderer_.set_fringe(nullptr);
-    seeks_fringe_.reset();  // cancels the last search
     fringe_answer_.reset();
-    if (!picture_) return;
+    if (seeks_fringe_) seeks_fringe_->cancel();
+    needs_fringe_ = picture_ != nullptr;
+  }
+  if (seeks_fringe_ && seeks_fringe_->ended()) seeks_fringe_.reset();
+  if (needs_fringe_ && !seeks_fringe_) {  // a canceled search ends soon, and then wakes the window
+    needs_fringe_ = false;
     fringe_answer_ = std::make_shared<FringeAnswer>();
     seeks_fringe_ = std::make_unique<Job>(
         "Fringe",

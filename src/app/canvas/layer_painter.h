@@ -59,6 +59,7 @@ class LayerPainter {
   std::shared_ptr<const Fringe> fringe_;
   std::shared_ptr<FringeAnswer> fringe_answer_;
   std::unique_ptr<Job> seeks_fringe_;
+  bool needs_fringe_ = false;  ///< the search for it has not started yet
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;
   std::shared_ptr<const Mesh> mesh_;

@@ -13,7 +13,9 @@ constexpr double kSmall = 480;       // longest side of the small picture, pixel
 constexpr double kGrowth = 0.9;      // exponent of the pixels
 constexpr double kLaterFrame = 0.6;  // size of a later frame of a film, relative to the first
 
-double estimate(const ExportEstimate::Question& question, const Pictures& pictures) {
+/// The size in bytes; none if canceled.
+std::optional<double> estimate(const ExportEstimate::Question& question, const Pictures& pictures,
+                               const Job::Progress& progress) {
   const Scene& scene = question.scene;
   PictureMaker maker(scene, pictures.of(scene.layer()), pictures);
   PictureOptions options = question.options;
@@ -22,6 +24,7 @@ double estimate(const ExportEstimate::Question& question, const Pictures& pictur
   const double longest = std::max({shown.width(), shown.height(), 1.0});
   options.scale = std::min(question.options.scale, kSmall / longest);
   const Image small = maker.picture(options).image;
+  if (progress.cancelled()) return {};
   const bool is_still = std::ranges::any_of(picture_formats(), [&](const PictureFormat& format) {
     return format.extension == question.extension;
   });
@@ -49,14 +52,21 @@ void ExportEstimate::update(Question question, const Pictures& pictures) {
     if (result_->bytes) bytes_ = result_->bytes;
   }
   if (job_ && job_->ended()) job_.reset();
-  if (job_ || asked_ == question) return;
+  if (asked_ == question) return;
+  if (job_) {  // the next frame after its end asks again
+    job_->cancel();
+    asked_.reset();
+    bytes_.reset();
+    result_.reset();
+    return;
+  }
   asked_ = question;
   bytes_.reset();
   result_ = std::make_shared<Result>();
   job_ = std::make_unique<Job>(
       "Estimating the size",
-      [question = std::move(question), pictures, result = result_](Job::Progress&) {
-        const double bytes = estimate(question, pictures);
+      [question = std::move(question), pictures, result = result_](Job::Progress& progress) {
+        const auto bytes = estimate(question, pictures, progress);
         const std::lock_guard lock(result->mutex);
         result->bytes = bytes;
       },

@@ -105,7 +105,8 @@ void FileDialog::enter(const Path& folder) {
     if (!is_folder && !is_listed(entry->path())) continue;
     Item item{entry->path(), is_folder};
     item.time = entry->last_write_time(ignored);
-    if (!is_folder) item.size = entry->file_size(ignored);
+    if (!is_folder && !ignored) item.size = entry->file_size(ignored);
+    if (ignored) continue;  // a link to nothing, for example
     items.push_back(std::move(item));
   }
   if (error) {

@@ -1,4 +1,5 @@
-// The card never lies over the picture. Its place is found among the strips around it.
+// The card never lies over the picture. It is placed in the first corner of the canvas that is
+// free.
 #include "app/panels/first_steps.h"
 
 #define IMGUI_DEFINE_MATH_OPERATORS

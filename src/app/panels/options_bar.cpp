@@ -452,8 +452,8 @@ void draw_options_bar(Workspace& workspace, const PanelSizes& sizes) {
             options.name);
   const float named = px(38) + text_size(Type::strong, options.name).x + px(4);
   ImGui::SetCursorScreenPos({left + named, std::round(middle - px(14))});
-  ImGui::BeginDisabled(!workspace.document.scene().layer().visible ||
-                       workspace.document.scene().layer().locked);
+  const Layer& layer = workspace.document.scene().layer();
+  ImGui::BeginDisabled((!layer.visible || layer.locked) && workspace.shown.timeline.keys.empty());
   ImGui::PushID(options.name.c_str());
   draw_groups(options.groups, right - px(12));
   ImGui::PopID();

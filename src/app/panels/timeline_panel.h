@@ -11,6 +11,7 @@ class TimelinePanel {
  public:
   /// The height that the panel needs, in px.
   double height(const Workspace& workspace, const PanelSizes& sizes) const;
+  void forget() { rows_.forget(); }
   bool take_growth() { return rows_.take_growth(); }
   /// The status bar's text while the pointer is on the ruler or on the rows; else empty.
   std::string hint() const;

@@ -233,8 +233,11 @@ void TimelineRows::draw_selection_box(const Workspace& workspace) {
   box_ = {ruler_.x(first) - px(14), low + px(3), ruler_.x(last) + px(14), high - px(3)};
   list.AddRectFilled({box_.x, box_.y}, {box_.z, box_.w}, faded(c.accent, 0.14f), px(4));
   list.AddRect({box_.x, box_.y}, {box_.z, box_.w}, faded(c.accent, 0.7f), px(4));
-  if (first == last) return;
   const float middle = (box_.y + box_.w) / 2;
+  if (first == last) {  // nothing to stretch
+    box_ = {};
+    return;
+  }
   for (const float x : {box_.x, box_.z})
     list.AddRectFilled({x - px(2), middle - px(12)}, {x + px(2), middle + px(12)}, faded(c.accent),
                        px(2));
@@ -415,7 +418,8 @@ void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
     ImGui::PopID();
     list.AddLine({at.x, y + height}, {at.x + width, y + height}, faded(theme_colors().line));
   }
-  list.PushClipRect({at.x + names, corner.y}, {at.x + width, at.y + px(2000)}, true);
+  list.PushClipRect({at.x + names, corner.y},
+                    {at.x + width, at.y + height * static_cast<float>(rows_.size())}, true);
   for (size_t i = 0; i < rows_.size(); ++i)
     draw_keys(workspace, rows_[i], at.y + height * (static_cast<float>(i) + 0.5f));
   draw_selection_box(workspace);

@@ -16,6 +16,8 @@ class TimelineRows {
   float height(const Workspace& workspace) const;
   void draw(Workspace& workspace, Thumbnails& thumbnails);
   TimeRuler& ruler() { return ruler_; }
+  /// Shows a new document: all of its time, and only the layers' own rows.
+  void forget() { ruler_.fit(), open_.clear(); }
   /// Whether the ruler has grown during a drag, so that another frame is needed. Resets the answer.
   bool take_growth() { return std::exchange(grows_, false); }
   /// Whether the pointer is on the ruler or on the keyframes.

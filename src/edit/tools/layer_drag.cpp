@@ -9,18 +9,9 @@
 namespace holomorph {
 namespace {
 
-constexpr int kVisibleAlpha = 13;  // 5 % of 255
-
 void move(Cage& cage, Complex by) {
   for (Points& segment : cage.segments)
     for (Complex& z : segment) z += by;
-}
-
-bool is_opaque_at(const Image& picture, Complex rest) {
-  const int column = static_cast<int>(std::floor(rest.real())),
-            row = picture.height - 1 - static_cast<int>(std::floor(rest.imag()));
-  return column >= 0 && row >= 0 && column < picture.width && row < picture.height &&
-         picture.at(column, row)[3] >= kVisibleAlpha;
 }
 
 }  // namespace
@@ -49,15 +40,21 @@ Deformation with_box(Deformation deformation, const Image& picture) {
 bool shows_at(const Workspace& w, size_t number, Complex px) {
   const Layer& layer = *w.document.scene().layers[number];
   const Image* picture = w.document.pictures().of(layer);
-  if (!layer.visible || !picture) return false;
+  if (!layer.visible || layer.opacity == 0 || !picture) return false;
   const std::optional<Complex> rest = rest_in_layer(w, number, px);
-  return rest && is_opaque_at(*picture, *rest);
+  return rest && is_visible_at(*picture, *rest);
 }
 
 std::optional<size_t> layer_at(const Workspace& w, Complex px) {
   for (size_t i = w.document.scene().layers.size(); i-- > 0;)
     if (shows_at(w, i, px)) return i;
   return {};
+}
+
+void leave_closed_layer(Workspace& w, Complex px) {
+  const Layer& layer = w.document.scene().layer();
+  if (layer.visible && !layer.locked) return;
+  if (const std::optional<size_t> there = layer_at(w, px)) w.choose_layer(*there);
 }
 
 bool LayerDrag::start(const Input& input, Workspace& w) {

@@ -17,6 +17,10 @@ std::optional<size_t> layer_at(const Workspace& workspace, Complex px);
 /// Whether a layer shows a visible pixel at a position of the canvas, in window px.
 bool shows_at(const Workspace& workspace, size_t layer, Complex px);
 
+/// Makes the layer under the pointer the edited one if the edited layer is locked or hidden, so
+/// that it cannot be edited itself.
+void leave_closed_layer(Workspace& workspace, Complex px);
+
 class LayerDrag {
  public:
   /// Makes the layer under the pointer the edited one, and starts to drag it. Returns false if

@@ -102,6 +102,27 @@ TEST_CASE("A click selects the layer without a step, and locked layers stay") {
   CHECK(stack.w.document.scene() == before);
 }
 
+TEST_CASE("A locked or hidden layer gives way to the layer under the pointer") {
+  for (const char* closes : {"layer.lock", "layer.visible"}) {
+    Stack stack;
+    run(closes, stack.w);
+    const Complex lower = stack.w.display.viewport.px_at_plane({70, 50});
+    leave_closed_layer(stack.w, lower);
+    CHECK(stack.w.document.scene().edited == 0);
+    leave_closed_layer(stack.w, stack.w.display.viewport.px_at_plane({20, 50}));
+    CHECK(stack.w.document.scene().edited == 0);  // it is open itself
+  }
+}
+
+TEST_CASE("A layer without opacity does not cover the layers below") {
+  Stack stack;
+  Layer faint = *stack.w.document.scene().layers[1];
+  faint.opacity = 0;
+  REQUIRE(stack.w.commit_layers("Opacity", with_layer_at(stack.w.document.scene(), 1, faint)));
+  stack.settle();
+  CHECK(layer_at(stack.w, stack.w.display.viewport.px_at_plane({20, 50})) == 0u);
+}
+
 TEST_CASE("With Handles, a drag of the picture selects with a box") {
   Stack stack;
   stack.w.tools.drags_layers = false;
