@@ -4,7 +4,7 @@
 // center.
 #include "raster/drawing.h"
 
-#include "raster/sampler.h"
+#include "raster/picture_rows.h"
 #include "system/parallel.h"
 
 namespace holomorph {
@@ -12,16 +12,16 @@ namespace {
 
 constexpr int kSub = 4;      ///< coverage samples per pixel in each direction
 constexpr int kBand = 16;    ///< rows that one task draws
+constexpr int kBlock = 16;   ///< columns that are known to have coverage samples or none
 constexpr int kMaxTaps = 8;  ///< limit of color samples per pixel in each direction
 
 /// An output triangle and the affine map from output pixels to its source coordinates (u, v): a
 /// position in the source picture or, for heat maps, the heat value in u.
 struct Piece {
   double x[3], y[3];  ///< output pixels, y down
-  double u0, ux, uy, v0, vx, vy;
+  SourceMap map;
   double low, high;  ///< range of u over the corners: heat is never extrapolated
-  int taps_x, taps_y;
-  bool outside;  ///< shows the undeformed picture, and is drawn only outside the rest cage
+  bool outside;      ///< shows the undeformed picture, and is drawn only outside the rest cage
 };
 
 /// The x at which the edge from (ax, ay) to (bx, by) crosses height y. Exchanging the endpoints
@@ -134,13 +134,14 @@ class Drawing {
       wy = (q * ax - p * bx) / area;
       w0 = w[0] - wx * piece.x[0] - wy * piece.y[0];
     };
-    gradient(u, piece.u0, piece.ux, piece.uy);
-    gradient(v, piece.v0, piece.vx, piece.vy);
+    SourceMap& map = piece.map;
+    gradient(u, map.u0, map.ux, map.uy);
+    gradient(v, map.v0, map.vx, map.vy);
     const auto taps = [](double du, double dv) {
       return std::clamp(static_cast<int>(std::ceil(std::hypot(du, dv) - 0.05)), 1, kMaxTaps);
     };
-    piece.taps_x = job_.view == View::image ? taps(piece.ux, piece.vx) : 1;
-    piece.taps_y = job_.view == View::image ? taps(piece.uy, piece.vy) : 1;
+    if (job_.view == View::image)
+      map.taps_x = taps(map.ux, map.vx), map.taps_y = taps(map.uy, map.vy);
     piece.low = std::min({u[0], u[1], u[2]});
     piece.high = std::max({u[0], u[1], u[2]});
     piece.outside = outside;
@@ -216,14 +217,19 @@ class Drawing {
   /// cage, and the coverage samples of pixels that a silhouette crosses.
   struct Canvas {
     int first_row, rows, width;
-    std::vector<std::uint8_t> in_cage;  ///< per pixel: whether its center is in the cage
-    std::vector<int> slot;              ///< per pixel: index into samples, or -1
+    std::vector<int> slot;  ///< per pixel: index into samples, kFree or kInCage
     std::vector<std::array<Float4, kSub * kSub>> samples;
     std::vector<std::uint16_t> sample_in_cage;  ///< per slot: one bit per sample
     std::vector<int> slot_pixel;
+    std::vector<std::uint8_t> sampled;  ///< per kBlock columns: whether any has samples
 
     size_t at(int column, int row) const {
       return static_cast<size_t>(row - first_row) * width + column;
+    }
+    /// Whether any pixel from about one column to another has coverage samples.
+    bool has_samples(int from, int to) const {
+      return std::find(sampled.begin() + from / kBlock, sampled.begin() + to / kBlock + 1, true) !=
+             sampled.begin() + to / kBlock + 1;
     }
   };
 
@@ -247,6 +253,7 @@ class Drawing {
         int& slot = canvas.slot[canvas.at(column, row)];
         if (slot >= 0) continue;
         slot = static_cast<int>(canvas.samples.size());
+        canvas.sampled[static_cast<size_t>(column / kBlock)] = true;
         canvas.samples.push_back({});
         canvas.sample_in_cage.push_back(0);
         canvas.slot_pixel.push_back(static_cast<int>(canvas.at(column, row)));
@@ -261,17 +268,22 @@ class Drawing {
       for (size_t i = 0; i + 1 < at.size(); i += 2) {
         const int left = std::max(0, first_center(at[i])),
                   right = std::min(canvas.width, first_center(at[i + 1]));
-        for (int c = left; c < right; ++c) canvas.in_cage[canvas.at(c, row)] = 1;
+        for (int c = left; c < right; ++c)
+          if (int& slot = canvas.slot[canvas.at(c, row)]; slot == kFree) slot = kInCage;
       }
     }
+    std::vector<std::vector<double>> lines(static_cast<size_t>(canvas.rows) * kSub);
+    for (size_t i = 0; i < lines.size() && !canvas.samples.empty(); ++i)
+      row_crossings(cage_, edges, canvas.first_row + (static_cast<double>(i) + 0.5) / kSub,
+                    lines[i]);
     for (size_t slot = 0; slot < canvas.samples.size(); ++slot) {
       const int pixel = canvas.slot_pixel[slot], column = pixel % canvas.width,
-                row = canvas.first_row + pixel / canvas.width;
+                row = pixel / canvas.width;
       for (int sy = 0; sy < kSub; ++sy) {
-        row_crossings(cage_, edges, row + (sy + 0.5) / kSub, at);
+        const std::vector<double>& line = lines[static_cast<size_t>(row * kSub + sy)];
         for (int sx = 0; sx < kSub; ++sx) {
           const double x = column + (sx + 0.5) / kSub;
-          const auto before = std::upper_bound(at.begin(), at.end(), x) - at.begin();
+          const auto before = std::upper_bound(line.begin(), line.end(), x) - line.begin();
           if (before % 2)
             canvas.sample_in_cage[slot] |= static_cast<std::uint16_t>(1u << (sy * kSub + sx));
         }
@@ -280,34 +292,27 @@ class Drawing {
   }
 
   Float4 color_at(const Piece& piece, int column, int row) const {
+    const SourceMap& map = piece.map;
+    if (job_.view == View::image) return source_color(*job_.source, map, column, row);
     const double x = column + 0.5, y = row + 0.5;
-    const double u = piece.u0 + piece.ux * x + piece.uy * y,
-                 v = piece.v0 + piece.vx * x + piece.vy * y;
+    const double u = map.u0 + map.ux * x + map.uy * y, v = map.v0 + map.vx * x + map.vy * y;
     if (job_.view == View::checker) {
       const double up = (job_.source ? job_.source->height : 0) - v;  // y up, as on the canvas
-      const double light = 0.5 - 0.5 * wave(u, std::abs(piece.ux) + std::abs(piece.uy)) *
-                                     wave(up, std::abs(piece.vx) + std::abs(piece.vy));
+      const double light = 0.5 - 0.5 * wave(u, std::abs(map.ux) + std::abs(map.uy)) *
+                                     wave(up, std::abs(map.vx) + std::abs(map.vy));
       const Float4 dark{70, 90, 120, 255}, bright{235, 235, 235, 255};
       return dark + static_cast<float>(light) * (bright - dark);
     }
-    if (is_heat(job_.view)) {
-      const Color color = heat_color(std::clamp(u, piece.low, piece.high), job_.scale.diverging);
-      return Float4{color[0] * 255, color[1] * 255, color[2] * 255, 255};
-    }
-    const Sampler sampler(*job_.source);
-    if (piece.taps_x * piece.taps_y == 1) return sampler.at(u, v);
-    Float4 sum{};
-    for (int ty = 0; ty < piece.taps_y; ++ty)
-      for (int tx = 0; tx < piece.taps_x; ++tx) {
-        const double dx = (tx + 0.5) / piece.taps_x - 0.5, dy = (ty + 0.5) / piece.taps_y - 0.5;
-        Float4 color =
-            sampler.at(u + piece.ux * dx + piece.uy * dy, v + piece.vx * dx + piece.vy * dy);
-        const float alpha = color[3];
-        color[3] = 1;
-        sum += alpha * color;
-      }
-    const float count = static_cast<float>(piece.taps_x * piece.taps_y);
-    return Sampler::straight(sum / count);
+    const Color color = heat_color(std::clamp(u, piece.low, piece.high), job_.scale.diverging);
+    return Float4{color[0] * 255, color[1] * 255, color[2] * 255, 255};
+  }
+
+  void draw_row(const Piece& piece, const PixelSpan& span) const {
+    if (job_.view == View::image) return draw_span_fast(*job_.source, piece.map, span);
+    for (int column = span.begin; column < span.end; ++column)
+      if (span.draws(column))
+        draw_pixel(color_at(piece, column, span.row),
+                   span.pixels + 4 * static_cast<size_t>(column));
   }
 
   void draw_piece(const Piece& piece, Canvas& canvas) {
@@ -316,21 +321,17 @@ class Drawing {
     const int last =
         std::min(canvas.first_row + canvas.rows - 1, static_cast<int>(std::floor(high)));
     const double step_x = 1.0 / kSub;
+    const auto [least_x, most_x] = std::minmax({piece.x[0], piece.x[1], piece.x[2]});
+    const int from = static_cast<int>(std::clamp(std::floor(least_x), 0.0, canvas.width - 1.0)),
+              to = static_cast<int>(std::clamp(std::floor(most_x), 0.0, canvas.width - 1.0));
+    const bool has_samples = canvas.has_samples(from, to);
     for (int row = first; row <= last; ++row) {
       double left = 0, right = 0;
-      if (span_at(piece, row + 0.5, left, right)) {
-        const int begin = std::max(0, first_center(left)),
-                  end = std::min(canvas.width, first_center(right));
-        const size_t base = canvas.at(0, row);
-        for (int column = begin; column < end; ++column) {
-          if (canvas.slot[base + column] >= 0 || (piece.outside && canvas.in_cage[base + column]))
-            continue;
-          std::uint8_t* out = output_.at(column, row);
-          const Float4 color = color_at(piece, column, row);
-          store(out[3] == 0 ? color : over(color, load(out)), out);
-        }
-      }
-      if (canvas.samples.empty()) continue;
+      if (span_at(piece, row + 0.5, left, right))
+        draw_row(piece, {row, std::max(0, first_center(left)),
+                         std::min(canvas.width, first_center(right)), canvas.width,
+                         output_.at(0, row), &canvas.slot[canvas.at(0, row)], piece.outside});
+      if (!has_samples) continue;
       // The coverage samples of silhouette pixels in this row, one line of samples at a time.
       double lefts[kSub], rights[kSub], least = 1e300, most = -1e300;
       bool any = false;
@@ -371,10 +372,8 @@ class Drawing {
                   {},
                   {},
                   {},
-                  {}};
-    const size_t pixels = static_cast<size_t>(canvas.rows) * canvas.width;
-    canvas.in_cage.assign(pixels, 0);
-    canvas.slot.assign(pixels, -1);
+                  std::vector<std::uint8_t>(static_cast<size_t>(output_.width / kBlock + 1))};
+    canvas.slot.assign(static_cast<size_t>(canvas.rows) * canvas.width, kFree);
     for (const int e : band.silhouette) mark(canvas, silhouette_[e]);
     for (const int e : band.cage) mark(canvas, cage_[e]);
     find_cage(canvas, band.cage);

@@ -8,6 +8,7 @@
 #include <emmintrin.h>
 #endif
 
+#include <algorithm>
 #include <cstring>
 
 #include "scene/formats/image.h"
@@ -100,12 +101,13 @@ class Sampler {
     return sum;
   }
 
+  static constexpr double kOnTexel = 1e-3;  ///< a texel whose center is this close is copied
+
  private:
   Float4 texel(int c, int r) const {
     if (c < 0 || r < 0 || c >= image_.width || r >= image_.height) return Float4{};
     return load(image_.at(c, r));
   }
-  static constexpr double kOnTexel = 1e-3;  ///< a texel whose center is this close is copied
   const Image& image_;
 };
 
@@ -117,6 +119,11 @@ inline Float4 over(Float4 top, Float4 below) {
   Float4 sum = (top * top[3] + below * rest) * (1 / alpha);
   sum[3] = alpha;
   return sum;
+}
+
+/// Composites a color onto a pixel.
+inline void draw_pixel(Float4 color, std::uint8_t* out) {
+  store(out[3] == 0 ? color : over(color, load(out)), out);
 }
 
 }  // namespace holomorph

@@ -8,8 +8,10 @@
 #include "core/mesh/mesher.h"
 #include "raster/bleed.h"
 #include "raster/picture.h"
+#include "raster/picture_rows.h"
 #include "raster/textured.h"
 #include "scene/auto_cage.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -117,6 +119,47 @@ TEST_CASE("The result does not depend on the number of threads") {
   const Image one = rasterized(job).image;
   job.threads = 5;
   CHECK(rasterized(job).image == one);
+}
+
+TEST_CASE("Rows drawn eight pixels at a time have the bits of the portable code") {
+  const SpanDrawer fast = span_drawer_avx2();
+  if (fast.draw == kPortableSpans.draw) WARN("this processor has no AVX2");
+  for (const unsigned seed : seeds_of("rows of pixels", {1, 2, 3})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto unit = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+    for (int round = 0; round < 300; ++round) {
+      const Image source = noise(30, 20, random(), round % 3 == 0);
+      const int width = 1 + static_cast<int>(random() % 40);
+      Image before = noise(width, 1, random(), round % 5 == 0);
+      if (round % 2) std::ranges::fill(before.pixels, std::uint8_t{0});
+      std::vector<int> slots(static_cast<size_t>(width));
+      for (int& slot : slots) slot = static_cast<int>(random() % 8) - 7;
+      for (int& slot : slots) slot = slot < kInCage ? kFree : slot;
+      SourceMap map{15 + 20 * unit(), 1.5 * unit(), unit(), 10 + 15 * unit(), unit(), unit()};
+      if (round % 4 == 0) map = {std::round(map.u0), 1, 0, std::round(map.v0), 0, 1};
+      if (round % 7 == 0) map.taps_x = 1 + round % 3, map.taps_y = 2;
+      PixelSpan span{static_cast<int>(random() % 20), 0, width, width};
+      span.begin = static_cast<int>(random() % static_cast<unsigned>(width));
+      span.end =
+          span.begin + static_cast<int>(random() % static_cast<unsigned>(width + 1 - span.begin));
+      span.slots = slots.data();
+      span.outside = random() % 2;
+      const auto drawn_by = [&](const auto& draw) {
+        Image row = before;
+        PixelSpan own = span;
+        own.pixels = row.at(0, 0);
+        draw(own);
+        return row;
+      };
+      const Image portable = drawn_by([&](const PixelSpan& s) { draw_span(source, map, s); });
+      CHECK(drawn_by([&](const PixelSpan& s) { fast.draw(source, map, s); }) == portable);
+      CHECK(drawn_by([&](const PixelSpan& s) { draw_span_fast(source, map, s); }) == portable);
+      const Image texels = noise(width, 1, random());
+      CHECK(drawn_by([&](const PixelSpan& s) { fast.copy(texels.at(0, 0), s); }) ==
+            drawn_by([&](const PixelSpan& s) { copy_span(texels.at(0, 0), s); }));
+    }
+  }
 }
 
 TEST_CASE("Shrinking averages instead of skipping pixels") {
