@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
 
+#include "core/mesh/edge_graph.h"
 #include "edit/edits/edits.h"
 #include "edit/picking.h"
 
@@ -15,53 +15,25 @@ namespace {
 constexpr double kFar = 0.45;    ///< least distance, relative to that of the farthest point
 constexpr double kAsFar = 0.85;  ///< points this far relative to the farthest belong to its part
 
-using Edges = std::vector<std::vector<std::pair<int, double>>>;
-
-Edges edges_of(const Mesh& mesh) {
-  Edges edges(mesh.vertices.size());
-  for (const Triangle& triangle : mesh.triangles)
-    for (size_t k = 0; k < 3; ++k) {
-      const int a = triangle[k], b = triangle[(k + 1) % 3];
-      const double length =
-          std::abs(mesh.vertices[static_cast<size_t>(a)] - mesh.vertices[static_cast<size_t>(b)]);
-      edges[static_cast<size_t>(a)].push_back({b, length});
-      edges[static_cast<size_t>(b)].push_back({a, length});
-    }
-  return edges;
-}
-
-/// Lowers `distance` to the length of the shortest path from `start`, where that is less.
-void spread(const Edges& edges, int start, std::vector<double>& distance) {
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  distance[static_cast<size_t>(start)] = 0;
-  queue.push({0, start});
-  while (!queue.empty()) {
-    const auto [reached, at] = queue.top();
-    queue.pop();
-    if (reached > distance[static_cast<size_t>(at)]) continue;
-    for (const auto& [next, length] : edges[static_cast<size_t>(at)]) {
-      double& known = distance[static_cast<size_t>(next)];
-      if (reached + length >= known) continue;
-      known = reached + length;
-      queue.push({known, next});
-    }
-  }
-}
-
 int nearest_vertex(const Mesh& mesh, Complex z) {
   const auto found = std::ranges::min_element(
       mesh.vertices, {}, [&](const Complex& vertex) { return std::abs(vertex - z); });
   return static_cast<int>(found - mesh.vertices.begin());
 }
 
+std::vector<double> distances_from(const EdgeGraph& graph, int vertex) {
+  return graph.from(std::vector{EdgeGraph::Source{vertex}}).distance;
+}
+
 }  // namespace
 
 Points far_points(const Mesh& mesh, std::span<const Complex> from, size_t most) {
-  const Edges edges = edges_of(mesh);
-  std::vector<double> distance(mesh.vertices.size(), HUGE_VAL), inside = distance;
-  for (const Complex& z : from) spread(edges, nearest_vertex(mesh, z), distance);
-  for (const int v : mesh.boundary) spread(edges, v, inside);
+  const EdgeGraph graph(mesh);
+  std::vector<EdgeGraph::Source> held, boundary;
+  for (const Complex& z : from) held.push_back({nearest_vertex(mesh, z)});
+  for (const int v : mesh.boundary) boundary.push_back({v});
+  std::vector<double> distance = graph.from(held).distance;
+  const std::vector<double> inside = graph.from(boundary).distance;
   Points far;
   double first = 0;
   while (far.size() < most) {
@@ -71,15 +43,15 @@ Points far_points(const Mesh& mesh, std::span<const Complex> from, size_t most) 
     // Of the points that are about as far, take the one that lies deepest inside, near the
     // farthest one.
     const auto tip = static_cast<int>(std::ranges::max_element(distance) - distance.begin());
-    std::vector<double> from_tip(mesh.vertices.size(), HUGE_VAL);
-    spread(edges, tip, from_tip);
+    const std::vector<double> from_tip = distances_from(graph, tip);
     size_t best = static_cast<size_t>(tip);
     for (size_t v = 0; v < distance.size(); ++v)
       if (distance[v] >= kAsFar * farthest && from_tip[v] <= (1 - kAsFar) * farthest &&
           inside[v] > inside[best])
         best = v;
     far.push_back(mesh.vertices[best]);
-    spread(edges, static_cast<int>(best), distance);
+    std::ranges::transform(distance, distances_from(graph, static_cast<int>(best)),
+                           distance.begin(), [](double a, double b) { return std::min(a, b); });
   }
   return far;
 }

@@ -65,12 +65,12 @@ std::vector<Depth> depths_of(const Deformation& deformation) {
   std::vector<Depth> depths;
   if (!method_named(deformation.method).uses_pins) return depths;
   for (const Pin& pin : deformation.pins) depths.push_back({pin.rest, pin.depth});
+  if (!differ(depths)) depths.clear();
   return depths;
 }
 
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
                                        const std::vector<Depth>& depths) {
-  if (!differ(depths)) return mesh;
   auto drawn = std::make_shared<Mesh>(*mesh);
   drawn->triangles = draw_order(*mesh, depths);
   return drawn;

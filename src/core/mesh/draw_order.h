@@ -13,9 +13,10 @@ struct Depth {
 };
 
 /// The triangles of a mesh from the lowest to the highest. Each triangle has the height of the
-/// nearest depth point, where distances are measured along mesh edges. Triangles of equal height
-/// keep their order. Depth points outside the mesh are ignored. Cost: O(n log n) in the number of
-/// vertices.
+/// nearest depth point, where distances are measured along mesh edges. Of triangles of equal
+/// height, those farther from the middle of the mesh, along its edges, are higher, so that a limb
+/// lies in front of the body. The middle is the vertex farthest from the boundary. Depth points
+/// outside the mesh are ignored. Cost: O(n log n) in the number of vertices.
 std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths);
 
 }  // namespace holomorph

@@ -292,10 +292,10 @@ Method puppet_method() {
       .parameters =
           {toggle("exact", "Exact pins", "Meet the pins exactly when the pointer is released"),
            one_of("energy", "Extremes",
-                  "How much the strongest local changes of size and shape cost",
-                  {{"plain", "normal"}, {"power", "costly"}, {"exponential", "very costly"}}),
+                  "What to do about parts that change their size or shape most",
+                  {{"plain", "Allow"}, {"power", "Reduce"}, {"exponential", "Avoid"}}),
            by_decades("sharpness", "Strength",
-                      "Higher values reduce the strongest change. No effect with normal.", 1.5, 1,
+                      "Higher values reduce the strongest change. No effect with Allow.", 1.5, 1,
                       4),
            by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 1e5,
                       1e2, 1e7),

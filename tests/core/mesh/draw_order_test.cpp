@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 using namespace holomorph;
@@ -24,12 +25,11 @@ std::map<Triangle, size_t> positions_of(const std::vector<Triangle>& order) {
 
 }  // namespace
 
-TEST_CASE("The draw order contains each triangle once and keeps the mesh's order among equals") {
+TEST_CASE("The draw order contains each triangle once, and equal depths change nothing") {
   const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
-  CHECK(draw_order(mesh, {}) == mesh.triangles);
   const std::vector<Depth> level{{{50, 50}, 3}, {{250, 50}, 3}}, away{{{900, 900}, 7}};
-  CHECK(draw_order(mesh, level) == mesh.triangles);
-  CHECK(draw_order(mesh, away) == mesh.triangles);
+  CHECK(draw_order(mesh, level) == draw_order(mesh, {}));
+  CHECK(draw_order(mesh, away) == draw_order(mesh, {}));
   const std::vector<Depth> two{{{50, 50}, 0}, {{250, 50}, 1}};
   std::vector<Triangle> order = draw_order(mesh, two), all = mesh.triangles;
   std::ranges::sort(order);
@@ -72,4 +72,27 @@ TEST_CASE("Distance is measured through the mesh, not across a gap") {
       highest_low = std::max(highest_low, positions.at(t));
   }
   CHECK(highest_low < lowest_high);
+}
+
+TEST_CASE("Without depths, all of a limb that crosses the body lies in front of it") {
+  for (const unsigned seed : seeds_of("draw order", {1, 2, 3})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    // A body with a long arm, anywhere and turned by any angle.
+    const Complex turn = std::polar(1.0, 3.0 * random_complex(random).real()),
+                  away = 200.0 * random_complex(random);
+    Points shape{{0, 0},     {200, 0},  {200, 200}, {120, 200},
+                 {120, 420}, {80, 420}, {80, 200},  {0, 200}};
+    const auto moved = [&](Complex z) { return turn * z + away; };
+    for (Complex& z : shape) z = moved(z);
+    const Mesh mesh = domain_mesh(shape, {900});
+    size_t body = 0, arm = mesh.triangles.size(), number = 0;
+    for (const Triangle& t : draw_order(mesh, {})) {
+      const Complex z = (middle(mesh, t) - away) / turn;
+      if (std::abs(z - Complex(100, 100)) < 90) body = number;  // all that the arm can reach
+      if (z.imag() > 250 && arm == mesh.triangles.size()) arm = number;
+      ++number;
+    }
+    CHECK(body < arm);
+  }
 }
