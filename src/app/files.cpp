@@ -228,7 +228,7 @@ void Files::ask_where(const Path& path) {
     question.answers.push_back({"Replace this layer's picture", [this, path] {
                                   workspace_.messages.complain(imports_.replace_picture(path));
                                 }});
-  question.answers.push_back({"Open instead", [this, path] { ask_open(path); }});
+  question.answers.push_back({"Open as a new scene", [this, path] { ask_open(path); }});
   question.answers.push_back({"Cancel", {}});
   questions_.ask(std::move(question));
 }

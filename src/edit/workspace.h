@@ -103,6 +103,7 @@ struct Workspace {
   ActionTable actions;
   Playback playback;
   std::optional<Pose> copied;  ///< set by Copy pose
+  KeySelection copied_keys;    ///< set by Copy pose if keyframes are selected; otherwise empty
   Request request = Request::none;
   /// Runs a long task on another thread, then calls `then` on this thread. Set by the window.
   std::function<void(const std::string& title, Job::Work work, std::function<void()> then)>

@@ -85,6 +85,11 @@ class ProductWindowTest(WindowCase):
             editor.wait(lambda s: s["method"] == free, "the method without the switch")
             editor.press_item("Puppet")
             editor.wait(lambda s: s["method"] == "puppet", "the puppet again")
+            editor.press_item("More methods")
+            self.screenshot(editor, "more-methods")
+            editor.press_item("As rigid as possible")
+            editor.wait(lambda s: s["method"] == "arap", "a method from the list")
+            self.assertIn("Puppet", editor.state()["items"], "the section stays open")
 
     def test_panels_stay_in_place(self):
         with Editor(PROGRAM, [self.picture]) as editor:

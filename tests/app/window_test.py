@@ -768,7 +768,7 @@ class WindowTest(WindowCase):
             editor.drop(self.picture, 500, 300)
             time.sleep(0.5)
             self.screenshot(editor, "drop-question")
-            editor.press_item("Open instead")
+            editor.press_item("Open as a new scene")
             time.sleep(0.5)
             self.screenshot(editor, "drop-unsaved")
             self.assertGreater(editor.state()["cage_points"], 0, "nothing is lost before the answer")

@@ -209,6 +209,40 @@ TEST_CASE("Timeline: edits of keyframes do not set poses, even with auto-key") {
   CHECK(desk.workspace.shown.own().keyframes.size() == 1);
 }
 
+TEST_CASE("Timeline: selected keyframes are copied and pasted at the current time") {
+  TestWorkspace desk(kBar);
+  set_two_keys(desk);
+  Workspace& w = desk.workspace;
+  const int layer = w.document.scene().layer().id;
+  const size_t before = w.shown.own().keyframes.size();
+  const Pose second = w.shown.own().keyframes[1].pose;
+  w.shown.timeline.keys = {{layer, w.shown.own().keyframes[1].time}};
+  act(desk, "time.copy");
+  w.go_to_time(4);
+  act(desk, "time.paste");
+  REQUIRE(w.shown.own().keyframes.size() == before + 1);
+  CHECK(w.shown.own().keyframes.back().time == 4);
+  CHECK(w.shown.own().keyframes.back().pose == second);
+  // Without selected keyframes, a pose is copied again.
+  w.shown.timeline.keys.clear();
+  desk.workspace.update_map({});
+  go_to(desk, 0);
+  act(desk, "time.copy");
+  CHECK(w.copied_keys.empty());
+  CHECK(w.copied.has_value());
+}
+
+TEST_CASE("Timeline: playback stops at a whole frame") {
+  TestWorkspace desk(kBar);
+  set_two_keys(desk);
+  Workspace& w = desk.workspace;
+  act(desk, "time.play");
+  w.shown.timeline.time = 0.33168;
+  act(desk, "time.play");
+  CHECK_FALSE(w.shown.timeline.playing);
+  CHECK(w.shown.timeline.time == Approx(8 / 24.0));
+}
+
 TEST_CASE("Timeline: two drags of a keyframe are two steps") {
   TestWorkspace desk(kBar);
   set_two_keys(desk);

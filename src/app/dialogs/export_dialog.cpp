@@ -73,7 +73,9 @@ std::string missing_picture_message(const Workspace& workspace) {
 
 void ExportDialog::ask(std::optional<bool> asked, const Path& folder) {
   const Document& document = workspace_.document;
-  const bool film = asked.value_or(last_ ? last_->film : plays(document.scene()));
+  // A scene that has begun to move since the last export is proposed as a film.
+  const bool moves = plays(document.scene());
+  const bool film = asked.value_or(last_ && last_moved_ == moves ? last_->film : moves);
   folder_ = folder;
   if (last_) {
     settings_ = *last_;
@@ -217,12 +219,13 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     const std::string bytes = picture_format_of(settings.path).encode(result.image);
     if (progress.cancelled()) return;
     write_file(settings.path, bytes);
-    work->done = "Exported " + name + ", " + std::to_string(result.image.width) + " x " +
-                 std::to_string(result.image.height) + " pixels.";
+    work->done = "Exported " + name + ", " + std::to_string(result.image.width) + " \u00d7 " +
+                 std::to_string(result.image.height) + " px.";
   };
   return jobs_.run("Exporting " + settings.path.filename().string(), export_it, [this, work] {
     last_ = work->settings;
     last_all_ = work->settings.last == last_frame_of(workspace_.document.scene());
+    last_moved_ = plays(workspace_.document.scene());
     workspace_.messages.say(work->done);
   });
 }

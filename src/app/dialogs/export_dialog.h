@@ -69,6 +69,7 @@ class ExportDialog {
   ExportSettings settings_;
   std::optional<ExportSettings> last_;  ///< settings of the last export
   bool last_all_ = true;                ///< the last export ended at the scene's last frame
+  bool last_moved_ = false;             ///< the scene had a motion then
   Path folder_;
   std::string name_, message_;
   ExportEstimate estimate_;

@@ -316,7 +316,11 @@ void FileDialog::draw() {
       ImGui::GetTextLineHeight(),
       ImGui::CalcTextSize(message_.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y);
   Clicked clicked;
-  draw_list(clicked, px(96) + message_height + (question_.asks_scale ? px(36) : 0));
+  // Below the list: a gap, the name, the scale, the message, and the line with the buttons.
+  const float gap = ImGui::GetStyle().ItemSpacing.y, row = px(28) + gap;
+  draw_list(clicked, px(8) + row * (question_.asks_scale ? 2 : 1) + message_height + 3 * gap +
+                         px(4 + 4 + 32));
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(8));
   if (opens || focus_) ImGui::SetKeyboardFocusHere();
   focus_ = false;
   const bool entered =

@@ -295,6 +295,7 @@ bool begin_section(const std::string& title, const std::string& state, ImU32 sta
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const Pressed item = press(title + "##section", {width, height});
+  ImGui::SetItemAllowOverlap();  // sections may put a button into the title
   const std::string shown = plain_name(title);
   if (item.pressed) open = !open;
   ImDrawList& list = *ImGui::GetWindowDrawList();

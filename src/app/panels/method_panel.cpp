@@ -41,7 +41,9 @@ bool method_row(const Method& method, bool chosen) {
 }
 
 void more_methods(Workspace& workspace, const Method& chosen) {
-  if (small_button("More", ButtonKind::flat)) ImGui::OpenPopup("methods");
+  const bool opens = small_button("More##methods", ButtonKind::flat);
+  name_item("More methods");
+  if (opens) ImGui::OpenPopup("methods");
   if (!begin_menu_popup("methods")) return;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, px(4)});
   for (const Method& method : methods())
@@ -72,6 +74,7 @@ void settings(Workspace& workspace) {
   const Deformation deformation = workspace.shown.deformation();
   const Method& method = chosen_method(deformation);
   const Parameters chosen = chosen_parameters(deformation);
+  const ScopedLabelWidth wide(px(104));
   for (const ParameterSpec& spec : method.parameters)
     if (is_used(method, chosen, spec)) parameter_row(workspace, method, spec);
   if (!prevents_folds(deformation)) return;

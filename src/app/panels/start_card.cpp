@@ -15,6 +15,7 @@
 #include "app/look/surfaces.h"
 #include "app/panels/panels.h"
 #include "edit/actions/icons.h"
+#include "edit/content.h"
 #include "edit/method_choice.h"
 
 namespace holomorph {
@@ -89,9 +90,18 @@ bool StartCard::shows(const Workspace& workspace) const {
 }
 
 bool StartCard::has_room(const Workspace& workspace) {
-  return workspace.document.scene().layers.size() == 1 &&
-         workspace.display.viewport.width >= static_cast<double>(width() + px(320)) &&
-         workspace.display.viewport.height >= static_cast<double>(px(460));
+  constexpr double kFull = 0.85;  // of the size that the picture has without the card
+  const Viewport& view = workspace.display.viewport;
+  if (workspace.document.scene().layers.size() != 1 ||
+      view.width < static_cast<double>(width() + px(320)) ||
+      view.height < static_cast<double>(px(460)))
+    return false;
+  Viewport alone = view, beside = view;
+  beside.width -= static_cast<double>(width());
+  const Box content = content_box(workspace);
+  alone.fit(content);
+  beside.fit(content);
+  return beside.zoom >= kFull * alone.zoom;
 }
 
 void StartCard::draw_choices(Workspace& workspace, float width) {

@@ -24,7 +24,8 @@ class StartCard {
   void draw(Workspace& workspace, const OverlayStyle& style);
   /// Draws the choices into the current window instead.
   void draw_docked(Workspace& workspace, const OverlayStyle& style);
-  /// Whether the canvas has room for the card and the picture.
+  /// Whether the canvas has room for the card beside the picture. A picture that would have to be
+  /// much smaller fills the canvas instead, and the inspector shows the choices.
   static bool has_room(const Workspace& workspace);
 
  private:

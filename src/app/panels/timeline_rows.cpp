@@ -114,8 +114,9 @@ void TimelineRows::draw_ruler(Workspace& workspace, float names) {
   const float width = ImGui::GetContentRegionAvail().x, height = px(kRuler);
   const size_t chosen = workspace.shown.timeline.keys.size();
   if (chosen > 0)
-    draw_text(list, Type::caption, at + ImVec2(px(14), px(5)), c.muted,
-              std::to_string(chosen) + (chosen == 1 ? " key selected" : " keys selected"));
+    draw_text(
+        list, Type::caption, at + ImVec2(px(14), px(5)), c.muted,
+        std::to_string(chosen) + (chosen == 1 ? " keyframe selected" : " keyframes selected"));
   list.AddRectFilled(at + ImVec2(names, 0), at + ImVec2(width, height), faded(c.field));
   list.PushClipRect(at + ImVec2(names, 0), at + ImVec2(width, height), true);
   ruler_.draw(list, workspace, at.y, at.y + height);

@@ -1,4 +1,6 @@
 // The Time menu: playback, keyframes and poses.
+#include <utility>
+
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "scene/mirror.h"
@@ -32,9 +34,8 @@ std::string for_keys(const std::string& what, const KeySelection& keys) {
   return what + (keys.size() == 1 ? " keyframe" : " keyframes");
 }
 
-/// Copies the selected keyframes to the current time, or after them if it is among them.
-void duplicate_keys(Workspace& w) {
-  const KeySelection keys = chosen_keys(w);
+/// Copies keyframes to the current time, or after them if it is among them.
+void duplicate(Workspace& w, const KeySelection& keys) {
   const auto [first, last] = span_of(keys);
   const Scene& scene = w.document.scene();
   const double frame = 1 / scene.animation.frames_per_second, time = w.shown.timeline.time;
@@ -48,12 +49,34 @@ void duplicate_keys(Workspace& w) {
   w.messages.say("There are other keyframes where the copies would be.");
 }
 
-template <int by>
-void step_frame(Workspace& w) {
+/// Stops at the frame that is `by` frames after the nearest one.
+template <int by = 0>
+void stop_at_frame(Workspace& w) {
   w.shown.timeline.playing = false;
   const Scene& scene = w.document.scene();
   w.go_to_time(time_of_frame(scene, frame_at(scene, w.shown.timeline.time) + by));
 }
+void copy(Workspace& w) {
+  w.copied_keys = editable_keys(w.document.scene(), w.shown.timeline.keys);
+  if (!w.copied_keys.empty()) {
+    const size_t count = w.copied_keys.size();
+    return w.messages.say(count == 1 ? "Keyframe copied."
+                                     : std::to_string(count) + " keyframes copied.");
+  }
+  if (!w.require_pose()) return;
+  w.copied = whole_pose_of(w.shown.deformation());
+  w.messages.say("Pose copied.");
+}
+bool can_paste(const Workspace& w) {
+  return !editable_keys(w.document.scene(), w.copied_keys).empty() ||
+         (w.copied_keys.empty() && has_copied(w));
+}
+void paste(Workspace& w) {
+  const KeySelection keys = editable_keys(w.document.scene(), w.copied_keys);
+  if (!keys.empty()) return duplicate(w, keys);
+  w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied));
+}
+
 template <bool forwards>
 void step_key(Workspace& w) {
   w.shown.timeline.playing = false;
@@ -74,7 +97,8 @@ std::vector<Action> time_actions() {
           .run =
               [](Workspace& w) {
                 w.shown.preview.reset();
-                w.shown.timeline.playing = !w.shown.timeline.playing;
+                if (std::exchange(w.shown.timeline.playing, !w.shown.timeline.playing))
+                  return stop_at_frame(w);
                 w.shown.timeline.clock_ms.reset();
                 if (w.shown.timeline.time >= length_of(w.document.scene()) - 1e-6)
                   w.shown.timeline.time = 0;
@@ -87,7 +111,7 @@ std::vector<Action> time_actions() {
           .icon = icon_named("previous"),
           .keys = {','},
           .enabled = has_keys,
-          .run = step_frame<-1>,
+          .run = stop_at_frame<-1>,
       },
       {
           .id = "time.forward",
@@ -95,7 +119,7 @@ std::vector<Action> time_actions() {
           .icon = icon_named("next"),
           .keys = {'.'},
           .enabled = has_keys,
-          .run = step_frame<1>,
+          .run = stop_at_frame<1>,
       },
       {
           .id = "time.previous_key",
@@ -140,7 +164,7 @@ std::vector<Action> time_actions() {
           .hint = "Copy the selected keyframes to the current time",
           .icon = icon_named("duplicate"),
           .enabled = has_chosen_keys,
-          .run = duplicate_keys,
+          .run = [](Workspace& w) { duplicate(w, chosen_keys(w)); },
       },
       {
           .id = "time.mirror_keys",
@@ -202,24 +226,18 @@ std::vector<Action> time_actions() {
       {
           .id = "time.copy",
           .label = "Copy pose",
+          .hint = "Copy the pose, or the keyframes that are selected",
           .keys = {{'C', kCtrl}},
           .enabled = has_cage,
-          .run =
-              [](Workspace& w) {
-                if (!w.require_pose()) return;
-                w.copied = whole_pose_of(w.shown.deformation());
-                w.messages.say("Pose copied.");
-              },
+          .run = copy,
       },
       {
           .id = "time.paste",
           .label = "Paste pose",
+          .hint = "Paste the pose, or put the copied keyframes at the current time",
           .keys = {{'V', kCtrl}},
-          .enabled = has_copied,
-          .run =
-              [](Workspace& w) {
-                w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied));
-              },
+          .enabled = can_paste,
+          .run = paste,
       },
       {
           .id = "time.paste_mirrored",
