@@ -51,9 +51,9 @@ bool menu_entry(const std::string& label, const std::string& keys, bool checked,
                 bool enabled = true);
 void menu_separator();
 
-/// The key that was pressed to end the current dialog: Escape, or Enter for its default button. None
-/// if a list in the dialog, a text field or the item with the keyboard focus takes the key. Call this
-/// once per frame, after drawing the dialog's items.
+/// The key that was pressed to end the current dialog: Escape, or Enter for its default button.
+/// None if a list in the dialog, a text field or the item with the keyboard focus takes the key.
+/// Call this once per frame, after drawing the dialog's items.
 enum class DialogKey { none, escape, enter };
 DialogKey dialog_key();
 
