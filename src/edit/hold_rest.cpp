@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/edge_graph.h"
+#include "core/mesh/edge_distances.h"
 #include "edit/edits/edits.h"
 #include "edit/picking.h"
 
@@ -21,19 +21,19 @@ int nearest_vertex(const Mesh& mesh, Complex z) {
   return static_cast<int>(found - mesh.vertices.begin());
 }
 
-std::vector<double> distances_from(const EdgeGraph& graph, int vertex) {
-  return graph.from(std::vector{EdgeGraph::Source{vertex}}).distance;
+std::vector<double> distances_from(const EdgeDistances& edges, int vertex) {
+  return edges.from(std::vector{EdgeDistances::Source{vertex}}).distance;
 }
 
 }  // namespace
 
 Points far_points(const Mesh& mesh, std::span<const Complex> from, size_t most) {
-  const EdgeGraph graph(mesh);
-  std::vector<EdgeGraph::Source> held, boundary;
+  const EdgeDistances edges(mesh);
+  std::vector<EdgeDistances::Source> held, boundary;
   for (const Complex& z : from) held.push_back({nearest_vertex(mesh, z)});
   for (const int v : mesh.boundary) boundary.push_back({v});
-  std::vector<double> distance = graph.from(held).distance;
-  const std::vector<double> inside = graph.from(boundary).distance;
+  std::vector<double> distance = edges.from(held).distance;
+  const std::vector<double> inside = edges.from(boundary).distance;
   Points far;
   double first = 0;
   while (far.size() < most) {
@@ -43,14 +43,14 @@ Points far_points(const Mesh& mesh, std::span<const Complex> from, size_t most) 
     // Of the points that are about as far, take the one that lies deepest inside, near the
     // farthest one.
     const auto tip = static_cast<int>(std::ranges::max_element(distance) - distance.begin());
-    const std::vector<double> from_tip = distances_from(graph, tip);
+    const std::vector<double> from_tip = distances_from(edges, tip);
     size_t best = static_cast<size_t>(tip);
     for (size_t v = 0; v < distance.size(); ++v)
       if (distance[v] >= kAsFar * farthest && from_tip[v] <= (1 - kAsFar) * farthest &&
           inside[v] > inside[best])
         best = v;
     far.push_back(mesh.vertices[best]);
-    std::ranges::transform(distance, distances_from(graph, static_cast<int>(best)),
+    std::ranges::transform(distance, distances_from(edges, static_cast<int>(best)),
                            distance.begin(), [](double a, double b) { return std::min(a, b); });
   }
   return far;

@@ -3,28 +3,28 @@
 
 #include <algorithm>
 
-#include "core/mesh/edge_graph.h"
+#include "core/mesh/edge_distances.h"
 
 namespace holomorph {
 namespace {
 
-using Sources = std::vector<EdgeGraph::Source>;
+using Sources = std::vector<EdgeDistances::Source>;
 
 /// The distance of each vertex from the vertex that is farthest from the boundary.
-std::vector<double> distances_from_middle(const Mesh& mesh, const EdgeGraph& graph) {
+std::vector<double> distances_from_middle(const Mesh& mesh, const EdgeDistances& edges) {
   Sources boundary;
   for (const int v : mesh.boundary) boundary.push_back({v});
-  const std::vector<double> inside = graph.from(boundary).distance;
+  const std::vector<double> inside = edges.from(boundary).distance;
   const auto middle = std::ranges::max_element(inside) - inside.begin();
-  return graph.from(Sources{{static_cast<int>(middle)}}).distance;
+  return edges.from(Sources{{static_cast<int>(middle)}}).distance;
 }
 
 }  // namespace
 
 std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths) {
   std::vector<Triangle> order = mesh.triangles;
-  const EdgeGraph graph(mesh);
-  const std::vector<double> distance = distances_from_middle(mesh, graph);
+  const EdgeDistances edges(mesh);
+  const std::vector<double> distance = distances_from_middle(mesh, edges);
   std::ranges::stable_sort(order, {}, [&](const Triangle& t) {
     return std::max({distance[static_cast<size_t>(t[0])], distance[static_cast<size_t>(t[1])],
                      distance[static_cast<size_t>(t[2])]});
@@ -37,7 +37,7 @@ std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths
         sources.push_back({v, std::abs(mesh.vertices[static_cast<size_t>(v)] - depth.at)});
         source_heights.push_back(depth.depth);
       }
-  const std::vector<int> nearest = graph.from(sources).source;
+  const std::vector<int> nearest = edges.from(sources).source;
   const auto height_at = [&](int v) {
     const int source = nearest[static_cast<size_t>(v)];
     return source < 0 ? 0 : source_heights[static_cast<size_t>(source)];

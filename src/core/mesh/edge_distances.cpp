@@ -1,11 +1,11 @@
-#include "core/mesh/edge_graph.h"
+#include "core/mesh/edge_distances.h"
 
 #include <queue>
 #include <tuple>
 
 namespace holomorph {
 
-EdgeGraph::EdgeGraph(const Mesh& mesh) : edges_(mesh.vertices.size()) {
+EdgeDistances::EdgeDistances(const Mesh& mesh) : edges_(mesh.vertices.size()) {
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
@@ -16,7 +16,7 @@ EdgeGraph::EdgeGraph(const Mesh& mesh) : edges_(mesh.vertices.size()) {
     }
 }
 
-EdgeGraph::Reach EdgeGraph::from(std::span<const Source> sources) const {
+EdgeDistances::Reach EdgeDistances::from(std::span<const Source> sources) const {
   Reach reach{std::vector<double>(edges_.size(), HUGE_VAL), std::vector<int>(edges_.size(), -1)};
   using Entry = std::tuple<double, int, int>;  // distance, source, vertex
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;

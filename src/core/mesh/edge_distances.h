@@ -5,10 +5,10 @@
 
 namespace holomorph {
 
-class EdgeGraph {
+class EdgeDistances {
  public:
   /// Keeps a copy of the mesh's edges, with their lengths.
-  explicit EdgeGraph(const Mesh& mesh);
+  explicit EdgeDistances(const Mesh& mesh);
 
   /// A vertex from which paths start, and the length that they have there already.
   struct Source {
