@@ -30,8 +30,12 @@ class HarmonicCoordinates final : public RealCoordinates {
     for (Index e = 0; e < cage.size(); ++e) segments_.emplace_back(cage.controls(e));
   }
 
+  MatrixXd values(std::span<const Complex> points) const override { return at(points, 0).real(); }
+  MatrixXc slopes(std::span<const Complex> points) const override { return at(points, 1); }
+
+ private:
   /// One row per point: g (order 0) or g' (order 1).
-  MatrixXc at(std::span<const Complex> points, int order) const override {
+  MatrixXc at(std::span<const Complex> points, int order) const {
     Points places, slope_places, steps;
     std::vector<Index> outside;
     for (const Complex& z : points) {
@@ -59,7 +63,6 @@ class HarmonicCoordinates final : public RealCoordinates {
     return g;
   }
 
- private:
   /// Returns whether z is inside the cage or on its boundary.
   bool is_inside(Complex z) const {
     if (contact_of(segments_, z)) return true;

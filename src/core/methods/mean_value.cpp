@@ -1,7 +1,9 @@
 // Method `mean_value`: f = sum w_c b_c with mean value coordinates (Floater 2003; Hormann, Floater
 // 2006 for polygons of any shape). They have a closed form and follow the cage's edges, but are
 // negative beyond reflex corners.
+#include <Eigen/SparseCore>
 #include <algorithm>
+#include <optional>
 
 #include "core/geometry/orientation.h"
 #include "core/methods/real_coordinates.h"
@@ -14,6 +16,8 @@ namespace {
 struct Dual {
   double value = 0, x = 0, y = 0;
 
+  Dual() = default;
+  Dual(double value, double x = 0, double y = 0) : value(value), x(x), y(y) {}
   Dual operator+(const Dual& o) const { return {value + o.value, x + o.x, y + o.y}; }
   Dual operator-(const Dual& o) const { return {value - o.value, x - o.x, y - o.y}; }
   Dual operator*(const Dual& o) const {
@@ -29,69 +33,123 @@ Dual root(const Dual& a) {
   const double r = std::sqrt(a.value);
   return {r, a.x / (2 * r), a.y / (2 * r)};
 }
+double root(double a) {
+  return std::sqrt(a);
+}
+double value_of(const Dual& a) {
+  return a.value;
+}
+double value_of(double a) {
+  return a;
+}
 
-/// The mean value coordinates of an oriented polygon's vertices at z, which must not be a vertex.
+/// An offset to a vertex along x and y: the derivatives with respect to z are -1.
+template <class T>
+T offset(double by, double x, double y) {
+  if constexpr (std::is_same_v<T, Dual>) return {by, -x, -y};
+  return by;
+}
+
+/// The mean value coordinates of an oriented polygon's vertices: numbers, or duals where derivatives
+/// are needed, too.
 ///
 /// All weights are multiplied by the distance of the nearest vertex and, if an edge subtends more
 /// than a right angle at z, by the cotangent of half the widest angle. This keeps all terms
 /// bounded, even on the edges.
-std::vector<Dual> mean_value_coordinates(PolygonView polygon, Complex z) {
-  struct Side {
-    Dual x, y, length;
-  };
-  std::vector<Side> sides;
-  for (const Complex& vertex : polygon.points()) {
-    const Dual x{(vertex - z).real(), -1, 0}, y{(vertex - z).imag(), 0, -1};
-    sides.push_back({x, y, root(x * x + y * y)});
+template <class T>
+class MeanValueWeights {
+ public:
+  explicit MeanValueWeights(PolygonView polygon)
+      : polygon_(polygon),
+        sides_(polygon.points().size()),
+        angles_(sides_.size()),
+        weights_(sides_.size()) {
+    for (size_t i = 0; i < sides_.size(); ++i)
+      next_.push_back(static_cast<size_t>(polygon.loops().next(static_cast<Index>(i))));
   }
-  const auto nearest_side =
-      std::ranges::min_element(sides, {}, [](const Side& s) { return s.length.value; });
-  const Dual nearest = nearest_side->length;
-  const size_t n = sides.size();
-  const auto after = [&](size_t i) {
-    return static_cast<size_t>(polygon.loops().next(static_cast<Index>(i)));
+
+  /// The coordinates at z, valid until the next call. If z is a vertex, only numbers are finite.
+  const std::vector<T>& at(Complex z) {
+    const size_t nearest = measure(z);
+    if (value_of(sides_[nearest].length) == 0) {
+      std::ranges::fill(weights_, T(0));
+      weights_[nearest] = T(1);
+      return weights_;
+    }
+    const std::optional<size_t> widest = find_angles();
+    const T scale = widest ? angles_[*widest].cotangent() : T(1);
+    const size_t n = sides_.size();
+    std::ranges::fill(weights_, T(0));
+    T sum(0);
+    for (size_t i = 0; i < n; ++i) {
+      const T half = widest == i ? T(1) : angles_[i].tangent() * scale;
+      const T start = half * sides_[i].nearness, end = half * sides_[next_[i]].nearness;
+      weights_[i] = weights_[i] + start;
+      weights_[next_[i]] = weights_[next_[i]] + end;
+      sum = sum + start + end;
+    }
+    // The weight of the nearest vertex is 1 minus all other weights. The usual formula would lose
+    // precision next to that vertex, because its derivative suffers from cancellation.
+    const T share = T(1) / sum;
+    T rest(1);
+    for (size_t i = 0; i < n; ++i) {
+      if (i == nearest) continue;
+      weights_[i] = weights_[i] * share;
+      rest = rest - weights_[i];
+    }
+    weights_[nearest] = rest;
+    return weights_;
+  }
+
+ private:
+  struct Side {
+    T x, y, length;
+    T nearness;  ///< the distance of the nearest vertex divided by the length
   };
   struct Angle {
-    Dual along, across, product;
+    T along, across, product;
     /// The tangent of half the angle, computed without cancellation.
-    Dual tangent() const {
-      return along.value > 0 ? across / (product + along) : (product - along) / across;
+    T tangent() const {
+      return value_of(along) > 0 ? across / (product + along) : (product - along) / across;
     }
-    Dual cotangent() const { return across / (product - along); }
+    T cotangent() const { return across / (product - along); }
   };
-  std::vector<Angle> angles;
-  for (size_t i = 0; i < n; ++i) {
-    const Side &a = sides[i], &b = sides[after(i)];
-    angles.push_back({a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x, a.length * b.length});
+
+  /// Computes the sides, and returns the nearest vertex.
+  size_t measure(Complex z) {
+    const std::span<const Complex> vertices = polygon_.points();
+    size_t nearest = 0;
+    for (size_t i = 0; i < sides_.size(); ++i) {
+      Side& side = sides_[i];
+      side.x = offset<T>((vertices[i] - z).real(), 1, 0);
+      side.y = offset<T>((vertices[i] - z).imag(), 0, 1);
+      side.length = root(side.x * side.x + side.y * side.y);
+      if (value_of(side.length) < value_of(sides_[nearest].length)) nearest = i;
+    }
+    for (Side& side : sides_) side.nearness = sides_[nearest].length / side.length;
+    return nearest;
   }
-  const size_t widest = static_cast<size_t>(
-      std::ranges::min_element(angles, {},
-                               [](const Angle& a) { return a.along.value / a.product.value; }) -
-      angles.begin());
-  const bool is_wide = angles[widest].along.value < 0;
-  const Dual scale = is_wide ? angles[widest].cotangent() : Dual{1, 0, 0};
-  std::vector<Dual> weights(n);
-  Dual sum;
-  for (size_t i = 0; i < n; ++i) {
-    const Dual half = is_wide && i == widest ? Dual{1, 0, 0} : angles[i].tangent() * scale;
-    const Dual start = half * (nearest / sides[i].length),
-               end = half * (nearest / sides[after(i)].length);
-    weights[i] = weights[i] + start;
-    weights[after(i)] = weights[after(i)] + end;
-    sum = sum + start + end;
+
+  /// Computes the angles, and returns the widest one if it exceeds a right angle.
+  std::optional<size_t> find_angles() {
+    std::optional<size_t> widest;
+    double least = 0;  // cosine
+    for (size_t i = 0; i < angles_.size(); ++i) {
+      const Side &a = sides_[i], &b = sides_[next_[i]];
+      angles_[i] = {a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x, a.length * b.length};
+      if (!(value_of(angles_[i].along) < 0)) continue;
+      const double cosine = value_of(angles_[i].along) / value_of(angles_[i].product);
+      if (cosine < least) least = cosine, widest = i;
+    }
+    return widest;
   }
-  // The weight of the nearest vertex is 1 minus all other weights. The usual formula would lose
-  // precision next to that vertex, because its derivative suffers from cancellation.
-  Dual rest{1, 0, 0};
-  const size_t own = static_cast<size_t>(nearest_side - sides.begin());
-  for (size_t i = 0; i < n; ++i) {
-    if (i == own) continue;
-    weights[i] = weights[i] / sum;
-    rest = rest - weights[i];
-  }
-  weights[own] = rest;
-  return weights;
-}
+
+  PolygonView polygon_;
+  std::vector<size_t> next_;
+  std::vector<Side> sides_;
+  std::vector<Angle> angles_;
+  std::vector<T> weights_;
+};
 
 /// A curved cage is replaced by a fine polygon. The polygon's vertices are weighted sums of the
 /// control points.
@@ -100,37 +158,50 @@ class MeanValueCoordinates final : public RealCoordinates {
   explicit MeanValueCoordinates(const Cage& cage)
       : flat_(flattened(cage)),
         polygon_(polygon_cage(flat_)),
-        controls_(weights_at(cage, flat_.locations)) {}
+        controls_(weights_at(cage, flat_.locations).sparseView()) {}
 
-  MatrixXc at(std::span<const Complex> points, int order) const override {
-    MatrixXc of_vertices(static_cast<Index>(points.size()), controls_.rows());
-    for (size_t i = 0; i < points.size(); ++i)
-      of_vertices.row(static_cast<Index>(i)) = row(points[i], order);
-    return of_vertices * controls_.cast<Complex>();
+  MatrixXd values(std::span<const Complex> points) const override {
+    MeanValueWeights<double> weights(flat_);
+    return of_controls<double>(
+        points, [&](Complex z) -> const std::vector<double>& { return weights.at(z); });
+  }
+
+  MatrixXc slopes(std::span<const Complex> points) const override {
+    MeanValueWeights<Dual> weights(flat_);
+    std::vector<Complex> slopes(flat_.points.size());
+    return of_controls<Complex>(points, [&](Complex z) -> const std::vector<Complex>& {
+      const std::vector<Dual>& at = weights.at(point_inside_vertex(polygon_, z));
+      std::ranges::transform(at, slopes.begin(), [](const Dual& w) { return Complex(w.x, -w.y); });
+      return slopes;
+    });
   }
 
  private:
-  Eigen::RowVectorXcd row(Complex z, int order) const {
-    Eigen::RowVectorXcd row = Eigen::RowVectorXcd::Zero(controls_.rows());
-    const auto vertex = std::ranges::find(flat_.points, z);
-    if (vertex != flat_.points.end()) {
-      if (order == 0) {
-        row[vertex - flat_.points.begin()] = 1;
-        return row;
+  /// Multiplies the rows that `row` gives for points by the control points' weights.
+  template <class T, class Row>
+  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> of_controls(std::span<const Complex> points,
+                                                               Row row) const {
+    constexpr Index kBlock = 64;  // columns that stay in the cache while they are written
+    const auto count = static_cast<Index>(points.size());
+    Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> result(count, controls_.cols()),
+        block(static_cast<Index>(flat_.points.size()), kBlock);
+    const Eigen::SparseMatrix<double> transposed = controls_.transpose();
+    for (Index first = 0; first < count; first += kBlock) {
+      const Index size = std::min(kBlock, count - first);
+      for (Index i = 0; i < size; ++i) {
+        const std::vector<T>& weights = row(points[static_cast<size_t>(first + i)]);
+        block.col(i) = Eigen::Map<const Eigen::Vector<T, Eigen::Dynamic>>(
+            weights.data(), static_cast<Index>(weights.size()));
       }
-      z = point_inside_vertex(polygon_, z);
+      result.middleRows(first, size) =
+          (transposed.template cast<T>() * block.leftCols(size)).transpose();
     }
-    const std::vector<Dual> weights = mean_value_coordinates(flat_, z);
-    for (Index c = 0; c < row.size(); ++c) {
-      const Dual& weight = weights[static_cast<size_t>(c)];
-      row[c] = order == 0 ? Complex(weight.value) : Complex(weight.x, -weight.y);
-    }
-    return row;
+    return result;
   }
 
   FlatCage flat_;
   Cage polygon_;
-  MatrixXd controls_;  ///< the control points' weights at the polygon's vertices
+  Eigen::SparseMatrix<double> controls_;  ///< the control points' weights at the polygon's vertices
 };
 
 std::unique_ptr<Deformer> make_mean_value(const Rest& rest, const Deformer*) {

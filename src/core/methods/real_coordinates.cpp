@@ -14,8 +14,9 @@ class RealPoints final : public PointMap {
 
   Value at(Complex z) const override {
     const std::span<const Complex> point(&z, 1);
-    const MatrixXc g = coordinates_->at(point, 0), slope = coordinates_->at(point, 1);
-    return {z + (g.real() * displacement_)[0], 1.0 + 0.5 * (slope * displacement_)[0],
+    const MatrixXd h = coordinates_->values(point);
+    const MatrixXc slope = coordinates_->slopes(point);
+    return {z + (h * displacement_)[0], 1.0 + 0.5 * (slope * displacement_)[0],
             0.5 * std::conj((slope * displacement_.conjugate())[0])};
   }
 
@@ -29,15 +30,19 @@ class RealDeformer final : public LinearDeformer<T> {
  public:
   RealDeformer(const Rest& rest, std::shared_ptr<const RealCoordinates> coordinates)
       : LinearDeformer<T>(rest), coordinates_(std::move(coordinates)), orientation_(rest.cage) {
-    this->value_ = planar(coordinates_->at(rest.samples, 0).real().template cast<Complex>());
+    this->value_.re = coordinates_->values(rest.samples).template cast<T>();
+    this->value_.im = PlanarMatrix<T>::Real::Zero(this->value_.re.rows(), this->value_.re.cols());
   }
 
   using Deformer::deform;
   SampledMap deform(const Pose& pose, EvalOptions options, const Solution*) override {
     SampledMap out = LinearDeformer<T>::deform(pose, {}, nullptr);
     if (!options.derivatives || out.f.size() == 0) return out;
-    if (slope_.rows() != out.f.size())
-      slope_ = planar(coordinates_->at(this->derivative_points(), 1));
+    if (slope_.rows() != out.f.size()) {
+      const MatrixXc slopes = coordinates_->slopes(this->derivative_points());
+      slope_.re = slopes.real().template cast<T>();
+      slope_.im = slopes.imag().template cast<T>();
+    }
     const VectorXc by = controls(pose);
     out.fz = 0.5 * product(slope_, by).array() + Complex(1);
     out.fzbar = 0.5 * product(slope_, by.conjugate()).conjugate();
@@ -57,13 +62,6 @@ class RealDeformer final : public LinearDeformer<T> {
   PlanarMatrix<T> derivative_matrix() const override { return slope_; }
 
  private:
-  static PlanarMatrix<T> planar(const MatrixXc& matrix) {
-    PlanarMatrix<T> planar(matrix.rows(), matrix.cols());
-    planar.re = matrix.real().template cast<T>();
-    planar.im = matrix.imag().template cast<T>();
-    return planar;
-  }
-
   std::shared_ptr<const RealCoordinates> coordinates_;
   Orientation orientation_;
   PlanarMatrix<T> slope_;

@@ -9,8 +9,10 @@ namespace holomorph {
 class RealCoordinates {
  public:
   virtual ~RealCoordinates() = default;
-  /// One row per point. For order 0, the real parts are h. For order 1, the values are h_x - i h_y.
-  virtual MatrixXc at(std::span<const Complex> points, int order) const = 0;
+  /// h at points: points x control points.
+  virtual MatrixXd values(std::span<const Complex> points) const = 0;
+  /// h_x - i h_y at points: points x control points.
+  virtual MatrixXc slopes(std::span<const Complex> points) const = 0;
 };
 
 /// Creates a linear deformer for a rest. `coordinates` must belong to the rest's cage, oriented.
