@@ -68,6 +68,8 @@ struct Entry {
   double goal;
   int runs;
   double (*measure)(int runs);
+  const char* larger = "";                       ///< what is twice as large in the next measurement
+  double (*measure_larger)(int runs) = nullptr;  ///< shows how the result grows
 };
 
 double coordinates_ns(Kernel kernel, int order, int runs) {
@@ -233,10 +235,20 @@ double bounded_cold_ms(int runs) {
   return median_ms(runs, [&] { map = prepared->deformer->deform(pose_of(deformation), {}); });
 }
 
-double prepare_ms(int runs) {
-  const Deformation deformation = scene_with(wavy(100, {500, 500}, 350));
+double prepare_ms(int points, int runs) {
+  const Deformation deformation = scene_with(wavy(points, {500, 500}, 350));
   return median_ms(runs,
                    [&] { prepared_map(deformation, Precision::single, {kRequestedVertices}); });
+}
+
+/// The time that a method needs to prepare its map of a cage of this many points, on a mesh of
+/// about 9000 vertices that exists already.
+double prepare_method_ms(const char* method, int points, int runs) {
+  Deformation deformation = scene_with(wavy(points, {500, 500}, 350));
+  const auto before = prepared_map(deformation, Precision::single, {7500});
+  deformation.method = method;
+  return median_ms(runs,
+                   [&] { prepared_map(deformation, Precision::single, {7500}, before.get()); });
 }
 
 double coordinates_ms(int runs) {
@@ -333,7 +345,17 @@ const Entry kEntries[] = {
     {"inverse: 10000 preimages, 20 cubic segments", "ms", 100, 5, inverse_ms},
     {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
     {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
-    {"prepare: mesh and coordinates together", "ms", 150, 9, prepare_ms},
+    {"prepare: mesh and coordinates together", "ms", 150, 9,
+     [](int runs) { return prepare_ms(100, runs); }, "points",
+     [](int runs) { return prepare_ms(200, runs); }},
+    {"prepare: mean value, 256 points, 9k vertices, without the mesh", "ms", 0, 9,
+     [](int runs) { return prepare_method_ms("mean_value", 256, runs); }, "points",
+     [](int runs) { return prepare_method_ms("mean_value", 512, runs); }},
+    {"prepare: mean value, 1000 points, 9k vertices, without the mesh", "ms", 8000, 3,
+     [](int runs) { return prepare_method_ms("mean_value", 1000, runs); }},
+    {"prepare: harmonic, 64 points, 9k vertices, without the mesh", "ms", 0, 3,
+     [](int runs) { return prepare_method_ms("harmonic", 64, runs); }, "points",
+     [](int runs) { return prepare_method_ms("harmonic", 128, runs); }},
     {"pins: one more pin at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
     {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
     {"bounded: drag, 50 vertices, 300 samples, 5k mesh vertices, with proof, median of 300 frames",
@@ -395,7 +417,8 @@ const Entry kEntries[] = {
     {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 22, 15,
      [](int runs) { return export_ms(2000, 32, runs, 2); }},
     {"export: the same, one core", "ms", 0, 9,
-     [](int runs) { return export_ms(2000, 32, runs, 1); }},
+     [](int runs) { return export_ms(2000, 32, runs, 1); }, "sides",
+     [](int runs) { return export_ms(4000, 32, runs, 1); }},
     {"export: 4000 x 4000, 128-vertex cage, pose to pixels, two cores", "ms", 100, 9,
      [](int runs) { return export_ms(4000, 128, runs, 2); }},
     {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
@@ -431,40 +454,17 @@ std::vector<Result> measured(const std::string& filter,
   for (const Entry& entry : kEntries) {
     if (std::string(entry.name).find(filter) == std::string::npos) continue;
     results.push_back({entry.name, entry.unit, entry.measure(entry.runs), entry.goal, entry.runs});
+    if (entry.measure_larger) {
+      char growth[100];
+      std::snprintf(growth, sizeof growth, "%.1f times with twice the %s",
+                    entry.measure_larger(entry.runs) / results.back().median, entry.larger);
+      results.back().detail = growth;
+    }
     report(results.back());
   }
   if (std::string(kCompared).find(filter) != std::string::npos)
     for (Result& row : comparison(report)) results.push_back(std::move(row));
   return results;
-}
-
-std::string line_of(const Result& result) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median,
-                result.unit.c_str());
-  std::string line = text;
-  if (result.goal > 0) {
-    std::snprintf(text, sizeof text, "  (goal %g%s)", result.goal,
-                  result.median <= result.goal ? "" : ", missed");
-    line += text;
-  }
-  if (!result.detail.empty()) line += "  " + result.detail;
-  return line;
-}
-
-std::string json_of(const std::vector<Result>& results) {
-  std::string json = "[\n";
-  for (size_t i = 0; i < results.size(); ++i) {
-    char text[640];
-    std::snprintf(
-        text, sizeof text,
-        "  {\"name\": \"%s\", \"unit\": \"%s\", \"median\": %.6g, \"goal\": %g, \"runs\": %d, "
-        "\"detail\": \"%s\"}%s\n",
-        results[i].name.c_str(), results[i].unit.c_str(), results[i].median, results[i].goal,
-        results[i].runs, results[i].detail.c_str(), i + 1 < results.size() ? "," : "");
-    json += text;
-  }
-  return json + "]\n";
 }
 
 }  // namespace holomorph::bench

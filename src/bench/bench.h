@@ -19,7 +19,4 @@ struct Result {
 std::vector<Result> measured(const std::string& filter,
                              const std::function<void(const Result&)>& report);
 
-std::string line_of(const Result& result);
-std::string json_of(const std::vector<Result>& results);
-
 }  // namespace holomorph::bench

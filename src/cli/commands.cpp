@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "bench/bench.h"
+#include "bench/report.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
 #include "core/error.h"
@@ -107,16 +107,21 @@ void run(const NewCommand& command) {
 void run(const BenchCommand& command) {
   // If standard error is a terminal but the table goes elsewhere, show each line there as well.
   const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
+  const bench::Machine machine = bench::this_machine();
+  bench::Medians before;
+  if (!command.against.empty())
+    before = bench::medians_of(read_file(command.against), command.against.string());
   const std::vector<bench::Result> results =
       bench::measured(command.filter, [&](const bench::Result& result) {
-        const std::string line = bench::line_of(result) + "\n";
+        const std::string line =
+            bench::line_of(result) + bench::change_since(before, result) + "\n";
         if (!command.json) write_standard_output(line);
         if (shows_progress) std::cerr << line;
       });
   if (results.empty())
     throw Error(ErrorKind::bad_input, "--filter: no benchmark name contains '" + command.filter +
                                           "'; omit --filter to run all benchmarks");
-  if (command.json) write_standard_output(bench::json_of(results));
+  if (command.json) write_standard_output(bench::json_of(results, machine));
 }
 
 }  // namespace holomorph

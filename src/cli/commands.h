@@ -70,6 +70,7 @@ struct ExportCommand : SceneCommand {
 };
 struct BenchCommand {
   std::string filter;
+  Path against;  ///< earlier results; empty: none
   bool json = false;
 };
 

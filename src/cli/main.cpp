@@ -241,7 +241,9 @@ void CommandLine::add_export(CLI::App& app) {
 void CommandLine::add_bench(CLI::App& app) {
   auto* sub = add(app, "bench", "Run the benchmarks and print their results", bench);
   sub->add_option("--filter", bench.filter, "Run only benchmarks whose name contains this text");
-  sub->add_flag("--json", bench.json, "Print JSON");
+  sub->add_flag("--json", bench.json, "Print JSON, with the machine, its load and the commit");
+  sub->add_option("--against", bench.against,
+                  "Compare with earlier results, a file that --json has written");
 }
 
 void CommandLine::add_to(CLI::App& app) {

@@ -123,6 +123,26 @@ class Files(Case):
                 done = subprocess.run([PROGRAM, *words], stdout=full, stderr=subprocess.PIPE)
             self.assertEqual(done.returncode, 1, words)
 
+    def test_benchmarks_name_the_machine_and_are_compared_with_earlier_ones(self):
+        words = ["bench", "--filter", "prepare: mesh of"]
+        text = self.good(*words, "--json").stdout
+        results = json.loads(text)
+        self.assertEqual(set(results), {"machine", "commit", "rows"})
+        self.assertEqual(set(results["machine"]), {"processor", "cores", "load"})
+        self.assertGreater(results["machine"]["cores"], 0)
+        self.assertEqual(len(results["rows"]), 1)
+        results["rows"][0]["median"] *= 100
+        with open(self.path("before.json"), "w") as file:
+            json.dump(results, file)
+        line = self.good(*words, "--against", self.path("before.json")).stdout
+        self.assertRegex(line, r"was [0-9.e+]+, now 0\.[0-9]+ times as much")
+        with open(self.path("other.json"), "w") as file:
+            file.write("{}")
+        for name, reason in (("other.json", "no benchmarks"), ("none.json", "no such file")):
+            done = subprocess.run([PROGRAM, *words, "--against", self.path(name)], capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(reason, done.stderr)
+
     def test_scenes_and_points_come_from_pipes_and_standard_input(self):
         scene = self.keyed_scene()
         scene["image"]["file"] = self.path("red.png")

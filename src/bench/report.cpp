@@ -1,0 +1,118 @@
+#include "bench/report.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <thread>
+
+#include "core/error.h"
+#include "scene/formats/json_tree.h"
+
+#ifndef HOLOMORPH_COMMIT
+#define HOLOMORPH_COMMIT "unknown"
+#endif
+
+namespace holomorph::bench {
+namespace {
+
+/// A text as a JSON string. Names, units and processors contain no control characters.
+std::string quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      if (const size_t colon = line.find(": "); colon != std::string::npos)
+        return line.substr(colon + 2);
+  return "unknown";
+}
+
+/// The member of an object with this key, if there is one.
+std::optional<JsonTree::Value> member(const JsonTree::Value& object, std::string_view key) {
+  if (object.kind() != JsonTree::Kind::object) return {};
+  for (size_t i = object.size(); i-- > 0;)
+    if (object.key(i) == key) return object.member(i);
+  return {};
+}
+
+}  // namespace
+
+Machine this_machine() {
+  Machine machine{processor_name(), HOLOMORPH_COMMIT,
+                  static_cast<int>(std::thread::hardware_concurrency()), 0};
+  double load[1];
+  if (getloadavg(load, 1) == 1) machine.load = load[0];
+  return machine;
+}
+
+std::string line_of(const Result& result) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median,
+                result.unit.c_str());
+  std::string line = text;
+  if (result.goal > 0) {
+    std::snprintf(text, sizeof text, "  (goal %g%s)", result.goal,
+                  result.median <= result.goal ? "" : ", missed");
+    line += text;
+  }
+  if (!result.detail.empty()) line += "  " + result.detail;
+  return line;
+}
+
+std::string json_of(const std::vector<Result>& results, const Machine& machine) {
+  std::string json = "{\n  \"machine\": {\"processor\": " + quoted(machine.processor) +
+                     ", \"cores\": " + std::to_string(machine.cores) +
+                     ", \"load\": " + number(machine.load) +
+                     "},\n  \"commit\": " + quoted(machine.commit) + ",\n  \"rows\": [";
+  for (const Result& result : results)
+    json += std::string(&result == results.data() ? "\n" : ",\n") +
+            "    {\"name\": " + quoted(result.name) + ", \"unit\": " + quoted(result.unit) +
+            ", \"median\": " + number(result.median) + ", \"goal\": " + number(result.goal) +
+            ", \"runs\": " + std::to_string(result.runs) +
+            ", \"detail\": " + quoted(result.detail) + "}";
+  return json + "\n  ]\n}\n";
+}
+
+Medians medians_of(const std::string& text, const std::string& name) {
+  constexpr int kDeepest = 8;
+  const JsonTree tree(text, kDeepest);
+  const auto rows = member(tree.root(), "rows");
+  if (!rows || rows->kind() != JsonTree::Kind::list)
+    throw Error(ErrorKind::bad_input,
+                name + " has no benchmarks; write such a file with holomorph bench --json");
+  Medians medians;
+  for (size_t i = 0; i < rows->size(); ++i) {
+    const auto row = member(rows->item(i), "name"), median = member(rows->item(i), "median");
+    if (row && row->kind() == JsonTree::Kind::text && median && median->is_number())
+      medians[std::string(row->text())] = median->number();
+  }
+  return medians;
+}
+
+std::string change_since(const Medians& before, const Result& result) {
+  const auto was = before.find(result.name);
+  if (was == before.end()) return "";
+  char text[120];
+  if (was->second > 0)
+    std::snprintf(text, sizeof text, "  (was %.6g, now %.2f times as much)", was->second,
+                  result.median / was->second);
+  else
+    std::snprintf(text, sizeof text, "  (was %.6g)", was->second);
+  return text;
+}
+
+}  // namespace holomorph::bench

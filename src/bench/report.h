@@ -1,0 +1,31 @@
+// Results of benchmarks as text and JSON, and their comparison with earlier ones.
+#pragma once
+
+#include <map>
+
+#include "bench/bench.h"
+
+namespace holomorph::bench {
+
+/// Where benchmarks run.
+struct Machine {
+  std::string processor, commit;  ///< "unknown" where they cannot be found out
+  int cores = 0;
+  double load = 0;  ///< mean number of running processes in the last minute, including this one
+};
+Machine this_machine();
+
+std::string line_of(const Result& result);
+/// An object with the machine and a list of rows.
+std::string json_of(const std::vector<Result>& results, const Machine& machine);
+
+/// The medians of earlier results, by their names.
+using Medians = std::map<std::string, double>;
+/// The medians in a text that json_of wrote. Throws Error{bad_input} if it is anything else.
+/// `name` is used in messages.
+Medians medians_of(const std::string& text, const std::string& name);
+/// What has become of a result, such as "  (was 12.3, now 0.52 times as much)"; empty if there was
+/// no such result.
+std::string change_since(const Medians& before, const Result& result);
+
+}  // namespace holomorph::bench
