@@ -1,7 +1,7 @@
 // The precomputation for a deformation's rest state: a domain mesh and a deformer on it.
 #pragma once
 
-#include <atomic>
+#include <mutex>
 
 #include "core/mesh/draw_order.h"
 #include "core/mesh/inbetween.h"
@@ -9,6 +9,24 @@
 #include "scene/scene.h"
 
 namespace holomorph {
+
+/// A shared pointer that several threads read and set. A mutex guards it, because in the standard
+/// library of GCC 12, reading an atomic shared pointer does not order what follows.
+class SharedInbetween {
+ public:
+  std::shared_ptr<const Inbetween> load() const {
+    const std::lock_guard lock(mutex_);
+    return between_;
+  }
+  void store(std::shared_ptr<const Inbetween> between) {
+    const std::lock_guard lock(mutex_);
+    between_ = std::move(between);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const Inbetween> between_;
+};
 
 /// A domain mesh and a deformer on it. Immutable except for the deformer and `between`.
 struct PreparedMap {
@@ -21,7 +39,7 @@ struct PreparedMap {
   double milliseconds = 0;  ///< time that the preparation took
   /// Interpolates between maps on the mesh. Null until it is needed or has been computed in idle
   /// time.
-  std::atomic<std::shared_ptr<const Inbetween>> between = {};
+  SharedInbetween between = {};
 };
 
 /// Whether two deformations need the same preparation.
@@ -33,10 +51,9 @@ void check_affordable(std::span<const Layer> layers);
 /// Returns `between` of a prepared map, creating it if it is null.
 std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 
-/// The depths of the pins, if the method uses pins.
+/// The depths of the pins; empty if they are all equal, or if the method does not use pins.
 std::vector<Depth> depths_of(const Deformation& deformation);
-/// The mesh with its triangles in drawing order, from the lowest to the highest. Returns `mesh`
-/// itself if all depths are equal.
+/// The mesh with its triangles in drawing order, from the lowest to the highest.
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
                                        const std::vector<Depth>& depths);
 
