@@ -9,6 +9,7 @@
 #include "core/cauchy/cauchy_kernel.h"
 #include "core/cauchy/cauchy_rows.h"
 #include "core/error.h"
+#include "core/geometry/nearby_order.h"
 #include "core/geometry/orientation.h"
 
 namespace holomorph {
@@ -217,6 +218,31 @@ void fill_exactly(const Cage& cage, std::span<const Complex> points, int order,
   }
 }
 
+/// Fills the rows in an order in which blocks contain neighbors, so that most blocks are on one
+/// side of the choice between the two formulas for each edge.
+template <class T>
+void fill_in_nearby_order(const Cage& cage, double farthest, std::span<const Complex> points,
+                          int order, const kernel::Table& table, PlanarMatrix<T>& out) {
+  constexpr Index kChunk = 2048;  // rows whose columns stay in the cache until they are copied
+  const std::vector<Index> rows = nearby_order(points);
+  PlanarMatrix<T> chunk(std::min(kChunk, out.rows()), out.cols());
+  BlockFiller<T> filler(cage, farthest, order, table, chunk);
+  Points near;
+  for (Index first = 0; first < out.rows(); first += kChunk) {
+    const std::span<const Index> here = std::span(rows).subspan(
+        static_cast<size_t>(first), static_cast<size_t>(std::min(kChunk, out.rows() - first)));
+    near.clear();
+    for (const Index row : here) near.push_back(points[static_cast<size_t>(row)]);
+    for (Index start = 0; start < static_cast<Index>(near.size()); start += kernel::kBlock)
+      filler.fill(near, start);
+    for (Index c = 0; c < out.cols(); ++c)
+      for (size_t i = 0; i < here.size(); ++i) {
+        out.re(here[i], c) = chunk.re(static_cast<Index>(i), c);
+        out.im(here[i], c) = chunk.im(static_cast<Index>(i), c);
+      }
+  }
+}
+
 }  // namespace
 
 bool has_avx2() {
@@ -255,6 +281,8 @@ void planar_coordinates(const Cage& cage, std::span<const Complex> points, int o
   out.resize(static_cast<Index>(points.size()), cage.control_count());
   double farthest = 0;
   for (const Complex& z : points) farthest = std::max(farthest, std::abs(z));
+  if (are_scattered(points))
+    return fill_in_nearby_order(cage, farthest, points, order, table_of(choice), out);
   BlockFiller<T> filler(cage, farthest, order, table_of(choice), out);
   for (Index first = 0; first < out.rows(); first += kernel::kBlock) filler.fill(points, first);
 }

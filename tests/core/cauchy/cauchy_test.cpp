@@ -8,6 +8,9 @@
 
 #include "core/cauchy/cauchy_array.h"
 #include "core/error.h"
+#include "core/geometry/nearby_order.h"
+#include "support/seeds.h"
+#include "support/shapes.h"
 
 using namespace holomorph;
 using nlohmann::json;
@@ -376,4 +379,34 @@ TEST_CASE("Cauchy coordinates reject negative orders") {
   const Cage cage = polygon_cage(star(4, 0.1, 1));
   const Complex z{0, 0};
   CHECK_THROWS_AS(cauchy_coordinates(cage, std::span(&z, 1), -1), Error);
+}
+
+TEST_CASE("Coordinates of scattered points: sorting them changes nothing but the speed") {
+  for (const unsigned seed : seeds_of("scattered points", {1, 2})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const Points polygon = shapes::star(7 + static_cast<int>(random() % 20), 0.4, random());
+    Points points;
+    for (int i = 0; i < 3000; ++i)
+      points.push_back(Complex(200, 200) + 190.0 * random_complex(random));
+    REQUIRE(are_scattered(points));
+    const std::vector<Index> order = nearby_order(points);
+    std::vector<Index> sorted = order;
+    std::ranges::sort(sorted);
+    for (Index i = 0; i < 3000; ++i) CHECK(sorted[static_cast<size_t>(i)] == i);
+    Points in_order;
+    for (const Index i : order) in_order.push_back(points[static_cast<size_t>(i)]);
+    CHECK_FALSE(are_scattered(in_order));
+    const Cage cage = polygon_cage(polygon);
+    const MatrixXc all = as_complex(planar_coordinates<double>(cage, points)),
+                   ordered = as_complex(planar_coordinates<double>(cage, in_order));
+    double most = 0;
+    for (Index i = 0; i < 3000; ++i)
+      most = std::max(
+          most, (all.row(order[static_cast<size_t>(i)]) - ordered.row(i)).cwiseAbs().maxCoeff());
+    CHECK(most == 0);
+    for (size_t i = 0; i < 3000; i += 100)
+      CHECK((all.row(static_cast<Index>(i)) - cauchy_coordinates(cage, std::span(&points[i], 1)))
+                .norm() < 1e-13);
+  }
 }
