@@ -50,8 +50,8 @@ T offset(double by, double x, double y) {
   return by;
 }
 
-/// The mean value coordinates of an oriented polygon's vertices: numbers, or duals where derivatives
-/// are needed, too.
+/// The mean value coordinates of an oriented polygon's vertices: numbers, or duals where
+/// derivatives are needed, too.
 ///
 /// All weights are multiplied by the distance of the nearest vertex and, if an edge subtends more
 /// than a right angle at z, by the cotangent of half the widest angle. This keeps all terms
@@ -186,6 +186,8 @@ class MeanValueCoordinates final : public RealCoordinates {
     Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> result(count, controls_.cols()),
         block(static_cast<Index>(flat_.points.size()), kBlock);
     const Eigen::SparseMatrix<double> transposed = controls_.transpose();
+    const bool is_polygon =
+        controls_.rows() == controls_.cols() && controls_.nonZeros() == controls_.rows();
     for (Index first = 0; first < count; first += kBlock) {
       const Index size = std::min(kBlock, count - first);
       for (Index i = 0; i < size; ++i) {
@@ -193,8 +195,11 @@ class MeanValueCoordinates final : public RealCoordinates {
         block.col(i) = Eigen::Map<const Eigen::Vector<T, Eigen::Dynamic>>(
             weights.data(), static_cast<Index>(weights.size()));
       }
-      result.middleRows(first, size) =
-          (transposed.template cast<T>() * block.leftCols(size)).transpose();
+      if (is_polygon)  // its vertices are the control points
+        result.middleRows(first, size) = block.leftCols(size).transpose();
+      else
+        result.middleRows(first, size) =
+            (transposed.template cast<T>() * block.leftCols(size)).transpose();
     }
     return result;
   }
