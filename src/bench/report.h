@@ -11,7 +11,7 @@ namespace holomorph::bench {
 struct Machine {
   std::string processor, commit;  ///< "unknown" where they cannot be found out
   int cores = 0;
-  double load = 0;  ///< mean number of running processes in the last minute, including this one
+  double load = 0;  ///< mean number of running processes in the minute before the run
 };
 Machine this_machine();
 
@@ -21,7 +21,7 @@ std::string json_of(const std::vector<Result>& results, const Machine& machine);
 
 /// The medians of earlier results, by their names.
 using Medians = std::map<std::string, double>;
-/// The medians in a text that json_of wrote. Throws Error{bad_input} if it is anything else.
+/// The medians in a text that json_of wrote. Throws Error{bad_input} if it has no list of rows.
 /// `name` is used in messages.
 Medians medians_of(const std::string& text, const std::string& name);
 /// What has become of a result, such as "  (was 12.3, now 0.52 times as much)"; empty if there was

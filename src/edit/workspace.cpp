@@ -387,6 +387,7 @@ void Workspace::open(Document opened) {
   document = std::move(opened);
   maps.clear();
   selection.clear();
+  copied_keys.clear();
   mergeable_selection_.reset();
   playback = {};
   shown = Shown(document);

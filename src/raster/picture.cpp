@@ -51,7 +51,7 @@ class PictureMaker::LayerMaker {
       positions_.emplace(options.time, map.f);
     }
     const VectorXc& f = positions_at(options.time);
-    if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, depths_of(deformation_));
+    if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, deformation_);
     job.mesh = drawn_.get();
     job.positions = as_span(f);
     Points around;

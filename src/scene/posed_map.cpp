@@ -24,8 +24,9 @@ PosedMap examined_map(const PreparedMap& prepared, const Deformation& deformatio
   posed.options.stop = {};
   posed.map = std::move(map);
   posed.depths = depths_of(deformation);
-  const bool same_order = before && before->drawn && before->depths == posed.depths;
-  posed.drawn = same_order ? before->drawn : drawn_mesh(prepared.mesh, posed.depths);
+  const bool same_order = before && before->drawn && before->depths == posed.depths &&
+                          before->deformation && before->deformation->method == deformation.method;
+  posed.drawn = same_order ? before->drawn : drawn_mesh(prepared.mesh, deformation);
   const Mesh& mesh = *prepared.mesh;
   posed.injectivity = injectivity_of(mesh, posed.map.f);
   for (const Complex& zero : posed.map.zeros)

@@ -70,9 +70,13 @@ std::vector<Depth> depths_of(const Deformation& deformation) {
 }
 
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
-                                       const std::vector<Depth>& depths) {
+                                       const Deformation& deformation) {
+  const bool is_puppet = deformation.method == usual_method(MethodUse::puppet).id;
+  const std::vector<Depth> depths = depths_of(deformation);
+  if (depths.empty() && !is_puppet) return mesh;
   auto drawn = std::make_shared<Mesh>(*mesh);
-  drawn->triangles = draw_order(*mesh, depths);
+  drawn->triangles =
+      draw_order(*mesh, depths, is_puppet ? EqualHeights::outward : EqualHeights::as_in_mesh);
   return drawn;
 }
 

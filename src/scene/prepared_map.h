@@ -11,7 +11,7 @@
 namespace holomorph {
 
 /// A shared pointer that several threads read and set. A mutex guards it, because in the standard
-/// library of GCC 12, reading an atomic shared pointer does not order what follows.
+/// library of GCC 12, reading an atomic shared pointer can race with setting it afterward.
 class SharedInbetween {
  public:
   std::shared_ptr<const Inbetween> load() const {
@@ -53,9 +53,10 @@ std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 
 /// The depths of the pins; empty if they are all equal, or if the method does not use pins.
 std::vector<Depth> depths_of(const Deformation& deformation);
-/// The mesh with its triangles in drawing order, from the lowest to the highest.
+/// The mesh of a deformation with its triangles in drawing order, from the lowest to the highest. A
+/// puppet's limbs lie in front of its body; other methods draw equal depths in the mesh's order.
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
-                                       const std::vector<Depth>& depths);
+                                       const Deformation& deformation);
 
 /// Prepares a map synchronously on the calling thread. If `previous` has the same cage, its mesh is
 /// reused. If it has the same method, its precomputation is reused where possible. Throws Error.

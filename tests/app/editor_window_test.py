@@ -131,8 +131,9 @@ class EditorWindowTest(WindowCase):
             editor.key("Return")
             editor.wait(lambda s: s["modified"], "another opacity")
             editor.press_item("Blending")
-            editor.press_item("Screen")
             time.sleep(0.4)
+            editor.press_item("Screen")
+            editor.wait(lambda s: s["step"] == 2, "another blending mode")
             path = os.path.join(self.work, "inked.json")
             self.save_as(editor, path)
         layer = load(path)["layers"][0]
@@ -405,6 +406,9 @@ class EditorWindowTest(WindowCase):
             for key in ("Down", "Right", "Return"):  # Place
                 editor.key(key)
             editor.wait(lambda s: s["cage_points"] == 4 and s["selected"] == 4, "a box around the picture")
+            if editor.state()["in_panel"]:  # the suggestions are part of the inspector
+                editor.key("Escape")
+                editor.wait(lambda s: not s["in_panel"], "the canvas with the keyboard focus")
             self.type_into_inspector(editor, 4, "50")  # x, y, degrees, size
             self.type_into_inspector(editor, 3, "90")
             self.type_into_inspector(editor, 1, "100")

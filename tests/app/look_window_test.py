@@ -61,8 +61,8 @@ class LookWindowTest(WindowCase):
             self.assertEqual(share(self.state_text(editor, "invisible-fold"), "FF8A80", 30), 0)
 
     def test_themes_have_the_colors_of_the_table(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
-            editor.wait(lambda s: s["pictured"], "the picture")
+        with Editor(PROGRAM, [os.path.join(SOURCE, "assets", "gecko.json")]) as editor:
+            editor.wait(lambda s: s["status"] == "certified", "the map")
             for name, panel, canvas in (("dark", "25262A", "17181B"), ("light", "F6F6F8", "D3D5DA"), ("high contrast", "000000", "000000")):
                 self.by_palette(editor, "theme: " + name)
                 editor.wait(lambda s: s["theme"] == name.split()[-1] and not s["moving"], "the theme")

@@ -21,14 +21,17 @@ std::vector<double> distances_from_middle(const Mesh& mesh, const EdgeDistances&
 
 }  // namespace
 
-std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths) {
+std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths,
+                                 EqualHeights equals) {
   std::vector<Triangle> order = mesh.triangles;
   const EdgeDistances edges(mesh);
-  const std::vector<double> distance = distances_from_middle(mesh, edges);
-  std::ranges::stable_sort(order, {}, [&](const Triangle& t) {
-    return std::max({distance[static_cast<size_t>(t[0])], distance[static_cast<size_t>(t[1])],
-                     distance[static_cast<size_t>(t[2])]});
-  });
+  if (equals == EqualHeights::outward) {
+    const std::vector<double> distance = distances_from_middle(mesh, edges);
+    std::ranges::stable_sort(order, {}, [&](const Triangle& t) {
+      return std::max({distance[static_cast<size_t>(t[0])], distance[static_cast<size_t>(t[1])],
+                       distance[static_cast<size_t>(t[2])]});
+    });
+  }
   Sources sources;
   std::vector<int> source_heights;
   for (const Depth& depth : depths)

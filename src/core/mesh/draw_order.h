@@ -12,11 +12,15 @@ struct Depth {
   bool operator==(const Depth&) const = default;
 };
 
+/// The order of triangles of equal height: that of the mesh, or outward from its middle, so that a
+/// limb lies in front of the body. The middle is the vertex farthest from the boundary, and
+/// distances are measured along edges.
+enum class EqualHeights { as_in_mesh, outward };
+
 /// The triangles of a mesh from the lowest to the highest. Each triangle has the height of the
-/// nearest depth point, where distances are measured along mesh edges. Of triangles of equal
-/// height, those farther from the middle of the mesh, along its edges, are higher, so that a limb
-/// lies in front of the body. The middle is the vertex farthest from the boundary. Depth points
-/// outside the mesh are ignored. Cost: O(n log n) in the number of vertices.
-std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths);
+/// nearest depth point, where distances are measured along mesh edges. Depth points outside the
+/// mesh are ignored. Cost: O(n log n) in the number of vertices.
+std::vector<Triangle> draw_order(const Mesh& mesh, std::span<const Depth> depths,
+                                 EqualHeights equals = EqualHeights::as_in_mesh);
 
 }  // namespace holomorph

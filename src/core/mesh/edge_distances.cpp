@@ -22,7 +22,7 @@ EdgeDistances::Reach EdgeDistances::from(std::span<const Source> sources) const 
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto visit = [&](double distance, int source, int vertex) {
     const auto v = static_cast<size_t>(vertex);
-    if (distance >= reach.distance[v]) return;
+    if (!(distance < reach.distance[v])) return;
     reach.distance[v] = distance;
     reach.source[v] = source;
     queue.push({distance, source, vertex});

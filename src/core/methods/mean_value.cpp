@@ -68,7 +68,7 @@ class MeanValueWeights {
       next_.push_back(static_cast<size_t>(polygon.loops().next(static_cast<Index>(i))));
   }
 
-  /// The coordinates at z, valid until the next call. If z is a vertex, only numbers are finite.
+  /// The coordinates at z, valid until the next call. If z is a vertex, duals have no meaning.
   const std::vector<T>& at(Complex z) {
     const size_t nearest = measure(z);
     if (value_of(sides_[nearest].length) == 0) {

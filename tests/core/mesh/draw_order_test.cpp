@@ -28,8 +28,11 @@ std::map<Triangle, size_t> positions_of(const std::vector<Triangle>& order) {
 TEST_CASE("The draw order contains each triangle once, and equal depths change nothing") {
   const Mesh mesh = domain_mesh(shapes::rectangle(300, 100), {600});
   const std::vector<Depth> level{{{50, 50}, 3}, {{250, 50}, 3}}, away{{{900, 900}, 7}};
-  CHECK(draw_order(mesh, level) == draw_order(mesh, {}));
-  CHECK(draw_order(mesh, away) == draw_order(mesh, {}));
+  CHECK(draw_order(mesh, {}) == mesh.triangles);
+  for (const EqualHeights equals : {EqualHeights::as_in_mesh, EqualHeights::outward}) {
+    CHECK(draw_order(mesh, level, equals) == draw_order(mesh, {}, equals));
+    CHECK(draw_order(mesh, away, equals) == draw_order(mesh, {}, equals));
+  }
   const std::vector<Depth> two{{{50, 50}, 0}, {{250, 50}, 1}};
   std::vector<Triangle> order = draw_order(mesh, two), all = mesh.triangles;
   std::ranges::sort(order);
@@ -74,7 +77,7 @@ TEST_CASE("Distance is measured through the mesh, not across a gap") {
   CHECK(highest_low < lowest_high);
 }
 
-TEST_CASE("Without depths, all of a limb that crosses the body lies in front of it") {
+TEST_CASE("Drawn outward, all of a limb that crosses the body lies in front of it") {
   for (const unsigned seed : seeds_of("draw order", {1, 2, 3})) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
@@ -87,7 +90,7 @@ TEST_CASE("Without depths, all of a limb that crosses the body lies in front of 
     for (Complex& z : shape) z = moved(z);
     const Mesh mesh = domain_mesh(shape, {900});
     size_t body = 0, arm = mesh.triangles.size(), number = 0;
-    for (const Triangle& t : draw_order(mesh, {})) {
+    for (const Triangle& t : draw_order(mesh, {}, EqualHeights::outward)) {
       const Complex z = (middle(mesh, t) - away) / turn;
       if (std::abs(z - Complex(100, 100)) < 90) body = number;  // all that the arm can reach
       if (z.imag() > 250 && arm == mesh.triangles.size()) arm = number;
