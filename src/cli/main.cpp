@@ -243,7 +243,8 @@ void CommandLine::add_bench(CLI::App& app) {
   sub->add_option("--filter", bench.filter, "Run only benchmarks whose name contains this text");
   sub->add_flag("--json", bench.json, "Print JSON, with the machine, its load and the commit");
   sub->add_option("--against", bench.against,
-                  "Compare with earlier results, a file that --json has written");
+                  "Compare with earlier results, a file that --json has written")
+      ->excludes("--json");
 }
 
 void CommandLine::add_to(CLI::App& app) {
