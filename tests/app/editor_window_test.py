@@ -131,7 +131,6 @@ class EditorWindowTest(WindowCase):
             editor.key("Return")
             editor.wait(lambda s: s["modified"], "another opacity")
             editor.press_item("Blending")
-            time.sleep(0.4)
             editor.press_item("Screen")
             editor.wait(lambda s: s["step"] == 2, "another blending mode")
             path = os.path.join(self.work, "inked.json")

@@ -91,6 +91,8 @@ const std::map<std::string, ImVec4>& item_boxes() {
 }
 
 void name_item(const std::string& name) {
+  // The first frame of a list only measures it. It is not drawn, and its items are elsewhere.
+  if (ImGui::GetCurrentContext()->CurrentWindow->Hidden) return;
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   boxes().try_emplace(name, from.x, from.y, to.x, to.y);
 }
