@@ -42,7 +42,7 @@ struct SpanDrawer {
 void draw_span(const Image& source, const SourceMap& map, const PixelSpan& span);
 void copy_span(const std::uint8_t* texels, const PixelSpan& span);
 inline constexpr SpanDrawer kPortableSpans{draw_span, copy_span};
-/// The same bits in a quarter of the time, if the processor has AVX2; otherwise kPortableSpans.
+/// Code for AVX2 that draws the same bits, if the processor has AVX2; otherwise kPortableSpans.
 SpanDrawer span_drawer_avx2();
 
 /// Draws a span by the fastest of these. Rows of texels that keep their distances are copied.

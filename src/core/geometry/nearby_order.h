@@ -9,7 +9,8 @@
 namespace holomorph {
 
 /// The indices of points along a Z-order curve through a grid over their bounding box (Morton
-/// 1966), with about two points in each cell. Points of a cell keep their order. Cost: linear.
+/// 1966). A cell of a square box has at most about two points on average, while there are fewer
+/// than two million. Points of a cell keep their order. Cost: linear.
 std::vector<Index> nearby_order(std::span<const Complex> points);
 
 /// Whether consecutive points are far apart: on average, several times the distance that evenly
