@@ -17,6 +17,7 @@
 #include "core/mesh/mesher.h"
 #include "core/methods/linear.h"
 #include "raster/raster.h"
+#include "raster/unwarp.h"
 #include "scene/auto_cage.h"
 #include "scene/live_map.h"
 
@@ -199,6 +200,26 @@ double inverse_ms(int runs) {
   });
 }
 
+/// The time of the slowest method for the map at every pixel of a picture of 2000 x 2000, which a
+/// cage of 32 points and three pins bend.
+double every_pixel_ms(const std::function<void(const Scene&, const Image&)>& work) {
+  const Image image = gradient(2000);
+  Deformation deformation = scene_with(wavy(32, {1000, 1000}, 780));
+  for (const Complex z : {Complex(600, 900), Complex(1000, 1500), Complex(1300, 800)})
+    deformation.pins.push_back({z, z + Complex(60, 40), {}, {}});
+  deformation.strokes.push_back(
+      {{{700, 700}, {1000, 750}, {1300, 700}}, {{700, 740}, {1000, 730}, {1300, 760}}});
+  double slowest = 0;
+  for (const Method& method : methods()) {
+    deformation.method = method.id;
+    const Scene scene = scene_of(deformation);
+    const double start = now_ms();
+    work(scene, image);
+    slowest = std::max(slowest, now_ms() - start);
+  }
+  return slowest;
+}
+
 /// A bar of 16 vertices with three pins. The benchmarks drag one of them until the reference folds.
 Deformation pulled_bar() {
   Points bar;
@@ -364,6 +385,17 @@ const Entry kEntries[] = {
     {"curved rest via a polygon: samples of the domain that it does not reach (for comparison)",
      "%", 0, 1, [](int) { return polygon_route().missing_percent; }},
     {"inverse: 10000 preimages, 20 cubic segments", "ms", 100, 5, inverse_ms},
+    {"ST-map: 2000 x 2000, with preparation, slowest method", "ms", 3000, 1,
+     [](int) {
+       return every_pixel_ms([](const Scene& scene, const Image& image) {
+         st_map_of(scene, image.width, image.height);
+       });
+     }},
+    {"unwarp: 2000 x 2000, with preparation, slowest method", "ms", 3000, 1,
+     [](int) {
+       return every_pixel_ms(
+           [](const Scene& scene, const Image& image) { unwarped(scene, &image); });
+     }},
     {"prepare: mesh of 15k vertices, 100-vertex cage", "ms", 0, 9, mesh_ms},
     {"prepare: coordinates 15k x 100, fresh memory", "ms", 10, 15, coordinates_ms},
     {"prepare: mesh and coordinates together", "ms", 150, 9,

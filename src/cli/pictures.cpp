@@ -130,13 +130,14 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   Progress progress("export", "row");
   const std::optional<double>& time = command.moments.time;
   const double scale = command.scale.value_or(1);
-  if (format == "unwarp") return encode_png(unwarped(loaded.scene, loaded.image(), scale, time));
+  const auto step = [&](int done, int all) {
+    progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
+  };
+  if (format == "unwarp")
+    return encode_png(unwarped(loaded.scene, loaded.image(), scale, time, step));
   if (format == "stmap") {
     const Image none, &picture = loaded.image() ? *loaded.image() : none;
-    const StMap map =
-        st_map_of(loaded.scene, picture.width, picture.height, scale, time, [&](int done, int all) {
-          progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
-        });
+    const StMap map = st_map_of(loaded.scene, picture.width, picture.height, scale, time, step);
     return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
   }
   const auto& image = loaded.scene.layer().image;

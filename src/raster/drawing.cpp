@@ -1,10 +1,9 @@
-// Scan-converts triangles by computing where their edges cross pixel rows. Both triangles at an
-// edge compute exactly the same crossing, so neighbors neither overlap nor leave a gap. A pixel
-// that a silhouette crosses has 4 x 4 coverage samples, but its color is always taken at its
-// center.
+// Scan-converts triangles by computing where their edges cross pixel rows. A pixel that a
+// silhouette crosses has 4 x 4 coverage samples, but its color is always taken at its center.
 #include "raster/drawing.h"
 
 #include "raster/picture_rows.h"
+#include "raster/scan.h"
 #include "system/parallel.h"
 
 namespace holomorph {
@@ -23,34 +22,6 @@ struct Piece {
   double low, high;  ///< range of u over the corners: heat is never extrapolated
   bool outside;      ///< shows the undeformed picture, and is drawn only outside the rest cage
 };
-
-/// The x at which the edge from (ax, ay) to (bx, by) crosses height y. Exchanging the endpoints
-/// gives exactly the same value.
-double crossing(double ax, double ay, double bx, double by, double y) {
-  if (by < ay || (by == ay && bx < ax)) std::swap(ax, bx), std::swap(ay, by);
-  return ax + (bx - ax) * ((y - ay) / (by - ay));
-}
-
-/// Finds the half-open interval of x that a triangle covers at height y. Returns false if it is
-/// empty.
-bool span_at(const Piece& piece, double y, double& left, double& right) {
-  double found[3];
-  int count = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int m = (k + 1) % 3;
-    if ((piece.y[k] <= y) != (piece.y[m] <= y))
-      found[count++] = crossing(piece.x[k], piece.y[k], piece.x[m], piece.y[m], y);
-  }
-  if (count < 2) return false;
-  left = std::min(found[0], found[1]);
-  right = std::max(found[0], found[1]);
-  return left < right;
-}
-
-/// The smallest integer i with i + 0.5 >= x.
-int first_center(double x) {
-  return static_cast<int>(std::ceil(x - 0.5));
-}
 
 /// The mean over `width` units around x of a square wave with cells of 16 units: 1 in the first
 /// cell, -1 in the next. image.frag has the same formula.
@@ -327,7 +298,7 @@ class Drawing {
     const bool has_samples = canvas.has_samples(from, to);
     for (int row = first; row <= last; ++row) {
       double left = 0, right = 0;
-      if (span_at(piece, row + 0.5, left, right))
+      if (span_at(piece.x, piece.y, row + 0.5, left, right))
         draw_row(piece, {row, std::max(0, first_center(left)),
                          std::min(canvas.width, first_center(right)), canvas.width,
                          output_.at(0, row), &canvas.slot[canvas.at(0, row)], piece.outside});
@@ -337,7 +308,7 @@ class Drawing {
       bool any = false;
       for (int sy = 0; sy < kSub; ++sy) {
         lefts[sy] = rights[sy] = 0;
-        if (!span_at(piece, row + (sy + 0.5) * step_x, lefts[sy], rights[sy])) continue;
+        if (!span_at(piece.x, piece.y, row + (sy + 0.5) * step_x, lefts[sy], rights[sy])) continue;
         any = true;
         least = std::min(least, lefts[sy]);
         most = std::max(most, rights[sy]);

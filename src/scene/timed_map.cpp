@@ -1,32 +1,16 @@
 // The deformer evaluates poses. Maps between keyframes are known only on the mesh.
 #include "scene/timed_map.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "core/maps/distortion.h"
+#include "core/maps/mesh_point_map.h"
 #include "core/mesh/mesher.h"
 #include "scene/keyframes.h"
+#include "system/parallel.h"
 
 namespace holomorph {
 namespace {
-
-/// A map that is linear in each triangle of a mesh.
-class MeshPointMap final : public PointMap {
- public:
-  MeshPointMap(std::shared_ptr<const Mesh> mesh, VectorXc f)
-      : mesh_(std::move(mesh)), f_(std::move(f)) {}
-
-  Value at(Complex z) const override {
-    const Location place = locate_near(*mesh_, z);
-    const Triangle& t = mesh_->triangles[static_cast<size_t>(place.triangle)];
-    const auto [fz, fzbar] = derivatives_in(*mesh_, t, f_);
-    return {place.in(*mesh_, as_span(f_)), fz, fzbar};
-  }
-
- private:
-  std::shared_ptr<const Mesh> mesh_;
-  VectorXc f_;
-};
 
 constexpr char kBetween[] = "Between keyframes: blended, not certified";
 
@@ -80,6 +64,30 @@ SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
   map.note = frame.between.note;
   map.status = frame.between.status;
   return map;
+}
+
+FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,
+                       const std::function<void()>& keep_going) const {
+  const std::shared_ptr<const Mesh> drawn = drawn_mesh(prepared_->mesh, frame.deformation);
+  const auto map = frame.pose ? prepared_->deformer->point_map(*frame.pose) : nullptr;
+  if (!map || map->is_linear_in_triangles()) {
+    const VectorXc f = on_mesh(frame).f;
+    return {*drawn, {f.begin(), f.end()}};
+  }
+  const auto values_at = [&](std::span<const Complex> points) {
+    constexpr size_t kBlock = 256;
+    const int blocks = static_cast<int>((points.size() + kBlock - 1) / kBlock);
+    std::vector<PointMap::Value> values(points.size());
+    const auto evaluate = [&](int block) {
+      const size_t first = static_cast<size_t>(block) * kBlock;
+      const auto some =
+          map->values_at(points.subspan(first, std::min(kBlock, points.size() - first)));
+      std::ranges::copy(some, values.begin() + static_cast<long>(first));
+    };
+    parallel_for(blocks, evaluate, [&](int) { keep_going(); });
+    return values;
+  };
+  return fine_map(prepared_->rest.cage, *drawn, tolerance, values_at);
 }
 
 std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const TimedFrame& frame) const {

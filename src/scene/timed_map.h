@@ -2,6 +2,9 @@
 // animation.
 #pragma once
 
+#include <functional>
+
+#include "core/maps/fine_map.h"
 #include "core/maps/inverse.h"
 #include "scene/motion.h"
 #include "scene/scene.h"
@@ -41,6 +44,14 @@ class TimedMap {
   /// and meaningless outside the cage. The next call with the same points reuses their
   /// precomputation.
   SampledMap at(const TimedFrame& frame, const Points& points);
+
+  /// The map in linear pieces that are within `tolerance` of it, in units of the plane. They are in
+  /// the order in which they are drawn. Maps between keyframes, and those that the method knows
+  /// only at samples, are linear in each triangle of the mesh. Uses all cores. Calls `keep_going`
+  /// on this thread from time to time; an exception from it ends the work and is rethrown.
+  FineMap fine(
+      const TimedFrame& frame, double tolerance,
+      const std::function<void()>& keep_going = [] {}) const;
 
   /// A frame's map and its inverse.
   struct Inverse {

@@ -120,4 +120,10 @@ MatrixXc AngleMap::rows(std::span<const Complex> points) const {
   return coordinates_->at(points).rowwise() - kI * at_anchor_.cast<Complex>();
 }
 
+HilbertCoordinates::Sum AngleMap::sum(const VectorXd& theta) const {
+  HilbertCoordinates::Sum sum = coordinates_->sum(theta);
+  sum.linear[0] -= kI * at_anchor_.dot(theta);
+  return sum;
+}
+
 }  // namespace holomorph

@@ -39,6 +39,9 @@ class AngleMap {
   /// H (points x angles) at points in the cage other than its vertices, with Im H = 0 at the anchor
   /// and log f' = i H theta.
   MatrixXc rows(std::span<const Complex> points) const;
+  /// The function H theta, with log f' = i H theta, for coordinates().values. It has the same
+  /// values as rows(points) * theta.
+  HilbertCoordinates::Sum sum(const VectorXd& theta) const;
 
  private:
   template <class T>

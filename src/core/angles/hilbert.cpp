@@ -18,7 +18,6 @@ constexpr int kDegree = 3, kSamplesPerPiece = 16;  ///< per piece
 constexpr int kCornerSamples = 4;
 constexpr int kMaxRounds = 7, kRefinements = 3;
 constexpr double kHighestPower = 3.2, kFlatTurn = 8 * kPi / 180;
-constexpr size_t kMaxPowers = 6;
 
 /// The length of a ray up to its next intersection with the polygon, or infinity if there is none.
 double free_length(PolygonView polygon, Complex from, Complex direction) {
@@ -58,8 +57,11 @@ std::vector<double> powers_of(double angle) {
   powers.erase(std::unique(powers.begin(), powers.end(),
                            [](double a, double b) { return std::abs(a - b) < 1e-6; }),
                powers.end());
-  powers.resize(std::min(powers.size(), kMaxPowers));
   return powers;
+}
+
+Complex logarithmic_slope(Complex at, Complex tip, Complex z) {
+  return 1.0 / (z - at) - 1.0 / (z - tip);
 }
 
 /// The arc length of a segment from its start to the parameter t.
@@ -160,11 +162,18 @@ void HilbertCoordinates::set_up_vertices() {
   for (Index j = 0; j < n; ++j) {
     const Points before = cage_.controls(cage_.before(j)), after = cage_.controls(j);
     const Complex out = after[1] - after[0], in = before.back() - before[before.size() - 2];
-    Vertex vertex{after[0], 0, std::arg(-in / out), {}};
+    Vertex vertex{after[0], 0, std::arg(-in / out), {}, {}};
     if (vertex.angle <= 0) vertex.angle += 2 * kPi;
     vertex.tip = tip_of(outline, vertex.at,
                         -out / std::abs(out) * std::polar(1.0, vertex.angle / 2), vertex.angle);
     vertex.powers = powers_of(vertex.angle);
+    vertex.powers.resize(std::min(vertex.powers.size(), kMostPowers));
+    for (const double power : vertex.powers) {
+      const auto lower = std::ranges::find_if(
+          vertex.powers, [power](double other) { return std::abs(other + 1 - power) < 1e-6; });
+      vertex.lower.push_back(
+          lower == vertex.powers.end() ? -1 : static_cast<int>(lower - vertex.powers.begin()));
+    }
     // The logarithm's imaginary part decreases by the inner angle as the boundary passes the
     // vertex.
     log_coefficients_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
@@ -242,12 +251,16 @@ std::vector<double> HilbertCoordinates::solve() {
   return errors;
 }
 
-Complex HilbertCoordinates::logarithm(const Vertex& vertex, Complex z) const {
-  return std::log((z - vertex.at) / (z - vertex.tip));
-}
-
-Complex HilbertCoordinates::logarithmic_slope(const Vertex& vertex, Complex z) const {
-  return 1.0 / (z - vertex.at) - 1.0 / (z - vertex.tip);
+HilbertCoordinates::Singular HilbertCoordinates::singular(const Vertex& vertex, Complex z) {
+  const Complex ratio = quotient(z - vertex.at, z - vertex.tip);
+  Singular at{{0.5 * std::log(std::norm(ratio)), std::atan2(ratio.imag(), ratio.real())}, {}};
+  for (size_t k = 0; k < vertex.powers.size(); ++k) {
+    const double power = vertex.powers[k];
+    at.powers[k] = vertex.lower[k] >= 0
+                       ? times(ratio, at.powers[static_cast<size_t>(vertex.lower[k])])
+                       : std::polar(std::exp(power * at.log.real()), power * at.log.imag());
+  }
+  return at;
 }
 
 MatrixXc HilbertCoordinates::logarithms(std::span<const Complex> points, int order) const {
@@ -257,9 +270,9 @@ MatrixXc HilbertCoordinates::logarithms(std::span<const Complex> points, int ord
     const Index column = static_cast<Index>(j);
     if (log_coefficients_.row(column).isZero(0)) continue;
     for (size_t i = 0; i < points.size(); ++i)
-      values(static_cast<Index>(i), column) = order == 0
-                                                  ? logarithm(vertices_[j], points[i])
-                                                  : logarithmic_slope(vertices_[j], points[i]);
+      values(static_cast<Index>(i), column) =
+          order == 0 ? singular(vertices_[j], points[i]).log
+                     : logarithmic_slope(vertices_[j].at, vertices_[j].tip, points[i]);
   }
   return values;
 }
@@ -273,14 +286,11 @@ MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) c
   basis.leftCols(cauchy.cols()) = cauchy;
   for (const Vertex& vertex : vertices_) {
     for (size_t i = 0; i < points.size() && !vertex.powers.empty(); ++i) {
-      const Complex log = logarithm(vertex, points[i]),
-                    slope = logarithmic_slope(vertex, points[i]);
-      for (size_t k = 0; k < vertex.powers.size(); ++k) {
-        const double power = vertex.powers[k];
-        const Complex value = std::exp(power * log);
+      const Singular at = singular(vertex, points[i]);
+      const Complex slope = logarithmic_slope(vertex.at, vertex.tip, points[i]);
+      for (size_t k = 0; k < vertex.powers.size(); ++k)
         basis(static_cast<Index>(i), column + static_cast<Index>(k)) =
-            order == 0 ? value : power * slope * value;
-      }
+            order == 0 ? at.powers[k] : vertex.powers[k] * slope * at.powers[k];
     }
     column += static_cast<Index>(vertex.powers.size());
   }
@@ -294,31 +304,84 @@ MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) c
   return basis;
 }
 
+namespace {
+
+constexpr size_t kBlock = 1024;  // rows of the basis that fit into the cache
+
+/// Calls `visit` with the first row and the points of each block.
+void for_each_block(std::span<const Complex> points,
+                    const std::function<void(Index, std::span<const Complex>)>& visit) {
+  for (size_t first = 0; first < points.size(); first += kBlock)
+    visit(static_cast<Index>(first),
+          points.subspan(first, std::min(kBlock, points.size() - first)));
+}
+
+}  // namespace
+
 MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) const {
   check(order == 0 || order == 1, "Hilbert coordinates: order 0 or 1");
-  constexpr size_t kBlock = 1024;  // rows of the basis that fit into the cache
   MatrixXc values(static_cast<Index>(points.size()), coefficients_.cols());
-  for (size_t first = 0; first < points.size(); first += kBlock) {
-    const size_t count = std::min(kBlock, points.size() - first);
-    values.middleRows(static_cast<Index>(first), static_cast<Index>(count)) =
-        block(points.subspan(first, count), order);
-  }
+  for_each_block(points, [&](Index first, std::span<const Complex> some) {
+    values.middleRows(first, static_cast<Index>(some.size())) = block(some, order);
+  });
   return values;
 }
 
 MatrixXc HilbertCoordinates::block(std::span<const Complex> points, int order) const {
-  MatrixXc values = matrix_product(logarithms(points, order), log_coefficients_) +
-                    matrix_product(basis(points, order), coefficients_);
-  const Index sums = parts_.linear.cols();
-  MatrixXc missing(values.rows(), sums);
-  for (Index i = 0; i < values.rows(); ++i) {
+  const MatrixXc values = matrix_product(logarithms(points, order), log_coefficients_) +
+                          matrix_product(basis(points, order), coefficients_);
+  const MatrixXc missing = linear_functions(points, order) - values * parts_.linear;
+  return values + missing * correction_weights_;
+}
+
+// With v = at(points) and the weights w, block() gives v w + (exact - v linear) c, where c are the
+// corrected sums. This is v (w - linear c) + exact c.
+HilbertCoordinates::Sum HilbertCoordinates::sum(const VectorXd& weights) const {
+  const VectorXd corrected = correction_weights_ * weights,
+                 left = weights - parts_.linear * corrected;
+  return {log_coefficients_ * left, coefficients_ * left, corrected};
+}
+
+VectorXc HilbertCoordinates::values(std::span<const Complex> points, const Sum& sum) const {
+  VectorXc values(static_cast<Index>(points.size()));
+  const Index smooth = boundary_.control_count();
+  const VectorXc on_boundary = sum.basis.head(smooth);
+  for_each_block(points, [&](Index first, std::span<const Complex> some) {
+    values.segment(first, static_cast<Index>(some.size())) =
+        product(planar_coordinates<double>(boundary_, some), on_boundary) +
+        linear_functions(some, 0) * sum.linear;
+  });
+  Index column = smooth;
+  for (size_t j = 0; j < vertices_.size(); ++j) {
+    const Vertex& vertex = vertices_[j];
+    const Complex jump = sum.logarithms[static_cast<Index>(j)];
+    const Index powers = static_cast<Index>(vertex.powers.size());
+    for (size_t i = 0; i < points.size() && (jump != Complex(0) || powers > 0); ++i) {
+      const Singular at = singular(vertex, points[i]);
+      Complex here = jump == Complex(0) ? jump : times(jump, at.log);
+      for (Index k = 0; k < powers; ++k)
+        here += times(sum.basis[column + k], at.powers[static_cast<size_t>(k)]);
+      values[static_cast<Index>(i)] += here;
+    }
+    column += powers;
+  }
+  for (const Complex& center : hole_centers_) {
+    for (size_t i = 0; i < points.size(); ++i)
+      values[static_cast<Index>(i)] += sum.basis[column] * std::log((points[i] - center) / size_);
+    ++column;
+  }
+  return values;
+}
+
+MatrixXc HilbertCoordinates::linear_functions(std::span<const Complex> points, int order) const {
+  MatrixXc functions(static_cast<Index>(points.size()), parts_.linear.cols());
+  for (Index i = 0; i < functions.rows(); ++i) {
     const Complex z = points[static_cast<size_t>(i)];
     const std::array<Complex, 3> exact =
         order == 0 ? std::array<Complex, 3>{1, z, -kI * z} : std::array<Complex, 3>{0, 1, -kI};
-    for (Index k = 0; k < sums; ++k) missing(i, k) = exact[static_cast<size_t>(k)];
+    for (Index k = 0; k < functions.cols(); ++k) functions(i, k) = exact[static_cast<size_t>(k)];
   }
-  missing -= values * parts_.linear;
-  return values + missing * correction_weights_;
+  return functions;
 }
 
 }  // namespace holomorph

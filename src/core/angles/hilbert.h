@@ -7,6 +7,7 @@
 // real coefficient; only its real part is single-valued.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "core/geometry/cage.h"
@@ -52,11 +53,21 @@ class HilbertCoordinates {
   /// per column.
   MatrixXc at(std::span<const Complex> points, int order = 0) const;
 
+  /// The sum of all coordinates with fixed weights: one function, whose values take less time.
+  struct Sum {
+    VectorXc logarithms, basis, linear;  ///< coefficients
+  };
+  Sum sum(const VectorXd& weights) const;
+  /// The values at(points) * weights of a sum. Cost per point: a row of Cauchy coordinates.
+  VectorXc values(std::span<const Complex> points, const Sum& sum) const;
+
  private:
+  static constexpr size_t kMostPowers = 6;
   struct Vertex {
     Complex at, tip;   ///< the ends of the branch cut outside the cage; `at` is the vertex
     double angle = 0;  ///< the inner angle
-    std::vector<double> powers;  ///< exponents of (z - at) / (z - tip)
+    std::vector<double> powers;  ///< exponents of (z - at) / (z - tip), increasing
+    std::vector<int> lower;  ///< for each power, the index of the power that is less by 1, or -1
   };
   /// The part of a segment between two parameters.
   struct Piece {
@@ -64,12 +75,19 @@ class HilbertCoordinates {
     double from, to;
   };
 
+  /// ln((z - at) / (z - tip)), with its branch cut between both points, and the powers of that
+  /// ratio.
+  struct Singular {
+    Complex log;
+    std::array<Complex, kMostPowers> powers;
+  };
+  static Singular singular(const Vertex& vertex, Complex z);
   MatrixXc block(std::span<const Complex> points, int order) const;
+  /// The functions 1, z and -i z, as many as `linear` has columns, or their derivatives.
+  MatrixXc linear_functions(std::span<const Complex> points, int order) const;
   void set_up_vertices();
   void refine(const std::vector<double>& errors, double tolerance);
   std::vector<double> solve();
-  Complex logarithm(const Vertex& vertex, Complex z) const;
-  Complex logarithmic_slope(const Vertex& vertex, Complex z) const;
   /// The logarithms that produce the jumps, one column per vertex.
   MatrixXc logarithms(std::span<const Complex> points, int order) const;
   /// The Cauchy coordinates, the powers and the logarithms of holes, one column per unknown.

@@ -24,26 +24,40 @@ int nodes_for(double ratio) {
 
 }  // namespace
 
-IntegrationPaths::IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision)
-    : mesh_(&mesh),
-      cage_(&cage),
-      corners_(vertices_of(cage)),
-      nodes_(mesh.vertices),
-      more_nodes_(precision == Precision::full ? kMoreNodes : 0),
-      panels_(kPanels + (precision == Precision::full ? kMorePanels : 0)) {
-  vertex_at_.assign(nodes_.size(), -1);
+IntegrationPaths::Domain::Domain(const Mesh& its_mesh, const Cage& its_cage, Precision precision)
+    : mesh(its_mesh),
+      cage(its_cage),
+      locator(its_mesh),
+      corners(vertices_of(its_cage)),
+      more_nodes(precision == Precision::full ? kMoreNodes : 0),
+      panels(kPanels + (precision == Precision::full ? kMorePanels : 0)),
+      corner_at(its_mesh.vertices.size(), -1),
+      is_on_boundary(boundary_marks(its_mesh)) {
   for (const int node : mesh.cage_vertices) {
-    const auto vertex = std::ranges::find(corners_, nodes_[static_cast<size_t>(node)]);
-    check(vertex != corners_.end(), "integration paths: the mesh belongs to the cage");
-    vertex_at_[static_cast<size_t>(node)] = static_cast<int>(vertex - corners_.begin());
+    const auto corner = std::ranges::find(corners, mesh.vertices[static_cast<size_t>(node)]);
+    check(corner != corners.end(), "integration paths: the mesh belongs to the cage");
+    corner_at[static_cast<size_t>(node)] = static_cast<int>(corner - corners.begin());
   }
-  on_boundary_ = boundary_marks(mesh);
+}
+
+IntegrationPaths::IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision)
+    : domain_(std::make_shared<const Domain>(mesh, cage, precision)) {}
+
+IntegrationPaths::End IntegrationPaths::end_at(int node) const {
+  if (node >= domain_->vertices())
+    return {added_[static_cast<size_t>(node - domain_->vertices())], -1};
+  const size_t vertex = static_cast<size_t>(node);
+  return {domain_->mesh.vertices[vertex], domain_->corner_at[vertex]};
+}
+
+bool IntegrationPaths::may_be_on_boundary(int node) const {
+  return node >= domain_->vertices() || domain_->is_on_boundary[static_cast<size_t>(node)] != 0;
 }
 
 void IntegrationPaths::add(int from, int to) {
-  const size_t start = static_cast<size_t>(from), end = static_cast<size_t>(to);
-  const End a{nodes_[start], vertex_at_[start]}, b{nodes_[end], vertex_at_[end]};
-  const bool may_leave = on_boundary_[start] && on_boundary_[end] && !is_straight(*cage_);
+  const End a = end_at(from), b = end_at(to);
+  const bool may_leave =
+      may_be_on_boundary(from) && may_be_on_boundary(to) && !is_straight(domain_->cage);
   if (!may_leave || !(add_inside({a, b}) || add_detour(a, b))) add_leg(a, b);
   steps_.push_back({from, to, static_cast<Index>(quadrature_points_.size())});
 }
@@ -51,7 +65,7 @@ void IntegrationPaths::add(int from, int to) {
 void IntegrationPaths::add_leg(const End& a, const End& b) {
   if (a.vertex < 0 && b.vertex < 0) {
     const double ratio = std::abs(b.at - a.at) / distance_to_corner(a.at, b.at);
-    add_gauss_rule(a.at, b.at, nodes_for(ratio) + more_nodes_, 1);
+    add_gauss_rule(a.at, b.at, nodes_for(ratio) + domain_->more_nodes, 1);
   } else if (a.vertex < 0) {
     add_graded_panels(a.at, b.vertex, 1);
   } else if (b.vertex < 0) {
@@ -64,21 +78,20 @@ void IntegrationPaths::add_leg(const End& a, const End& b) {
 }
 
 int IntegrationPaths::vertex_near(Complex z) const {
+  const Mesh& mesh = domain_->mesh;
   const auto distance = [&](int node) {
-    return std::norm(mesh_->vertices[static_cast<size_t>(node)] - z);
+    return std::norm(mesh.vertices[static_cast<size_t>(node)] - z);
   };
-  if (const auto found = locate(*mesh_, mesh_->vertices, z))
-    return *std::ranges::min_element(mesh_->triangles[static_cast<size_t>(found->triangle)], {},
+  if (const auto found = domain_->locator.at(z))
+    return *std::ranges::min_element(mesh.triangles[static_cast<size_t>(found->triangle)], {},
                                      distance);
-  return *std::ranges::min_element(mesh_->boundary, {}, distance);
+  return *std::ranges::min_element(mesh.boundary, {}, distance);
 }
 
 int IntegrationPaths::add_node(Complex z) {
   const int nearest = vertex_near(z);
-  if (nodes_[static_cast<size_t>(nearest)] == z) return nearest;
-  nodes_.push_back(z);
-  vertex_at_.push_back(-1);
-  on_boundary_.push_back(1);  // makes add() test whether the leg is inside
+  if (domain_->mesh.vertices[static_cast<size_t>(nearest)] == z) return nearest;
+  added_.push_back(z);
   add(nearest, nodes() - 1);
   return nodes() - 1;
 }
@@ -92,16 +105,16 @@ void IntegrationPaths::add_gauss_rule(Complex a, Complex b, int count, double si
 }
 
 void IntegrationPaths::add_graded_panels(Complex a, int vertex, double sign) {
-  const Complex corner = corners_[static_cast<size_t>(vertex)];
+  const Complex corner = domain_->corners[static_cast<size_t>(vertex)];
   // Closer than this distance, only the power matters, or rounding dominates.
-  const size_t n = corners_.size(), at = static_cast<size_t>(vertex);
-  const double edge = std::min(std::abs(corners_[(at + 1) % n] - corner),
-                               std::abs(corners_[(at + n - 1) % n] - corner)),
+  const size_t n = domain_->corners.size(), at = static_cast<size_t>(vertex);
+  const double edge = std::min(std::abs(domain_->corners[(at + 1) % n] - corner),
+                               std::abs(domain_->corners[(at + n - 1) % n] - corner)),
                rounding = std::numeric_limits<double>::epsilon() * std::abs(corner),
                least = std::max(kPower * edge, 1e4 * rounding);
-  for (int panel = 0; panel < panels_ && std::abs(a - corner) > least; ++panel) {
+  for (int panel = 0; panel < domain_->panels && std::abs(a - corner) > least; ++panel) {
     const Complex b = corner + kRatio * (a - corner);
-    add_gauss_rule(a, b, kPanelNodes + more_nodes_, sign);
+    add_gauss_rule(a, b, kPanelNodes + domain_->more_nodes, sign);
     a = b;
   }
   tails_.push_back({static_cast<Index>(steps_.size()),
@@ -115,7 +128,7 @@ void IntegrationPaths::add_graded_panels(Complex a, int vertex, double sign) {
 bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
   const size_t places = quadrature_points_.size(), tails = tails_.size();
   for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
-  const auto is_inside = [&](Complex z) { return contains(*cage_, z); };
+  const auto is_inside = [&](Complex z) { return contains(domain_->cage, z); };
   if (std::all_of(quadrature_points_.begin() + static_cast<Index>(places), quadrature_points_.end(),
                   is_inside))
     return true;
@@ -137,7 +150,7 @@ bool IntegrationPaths::add_detour(const End& a, const End& b) {
 
 double IntegrationPaths::distance_to_corner(Complex a, Complex b) const {
   double least = INFINITY;
-  for (const Complex& corner : corners_)
+  for (const Complex& corner : domain_->corners)
     least = std::min(least, nearest_on_segment(a, b, corner).distance);
   return least;
 }

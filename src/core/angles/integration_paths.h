@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "core/maps/deformer.h"
+#include "core/mesh/locator.h"
 
 namespace holomorph {
 
@@ -17,6 +18,8 @@ class IntegrationPaths {
   /// The first nodes are the mesh's vertices. Mesh and cage must stay alive while steps are added.
   /// Precision::full uses nearly twice as many quadrature points.
   IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision);
+  /// Paths without steps on the same mesh and cage, which are made quickly.
+  IntegrationPaths without_steps() const { return IntegrationPaths(domain_); }
 
   /// Adds a step from one node to another. `from` must be a starting node of the paths or the end
   /// of an earlier step.
@@ -26,7 +29,7 @@ class IntegrationPaths {
   /// Adds a node at any point z in the mesh, with a step from vertex_near(z). Returns its index, or
   /// vertex_near(z) if that vertex is at z.
   int add_node(Complex z);
-  int nodes() const { return static_cast<int>(nodes_.size()); }
+  int nodes() const { return domain_->vertices() + static_cast<int>(added_.size()); }
 
   /// The quadrature points: inside the cage or on its boundary, never at its vertices.
   const Points& quadrature_points() const { return quadrature_points_; }
@@ -61,12 +64,27 @@ class IntegrationPaths {
   void add_graded_panels(Complex a, int vertex, double sign);
   double distance_to_corner(Complex a, Complex b) const;
 
-  const Mesh* mesh_;
-  const Cage* cage_;
-  Points corners_, nodes_, quadrature_points_;
-  int more_nodes_, panels_;     ///< larger with Precision::full
-  std::vector<int> vertex_at_;  ///< the cage vertex at each node, or -1
-  std::vector<char> on_boundary_;
+  /// What does not depend on the steps.
+  struct Domain {
+    Domain(const Mesh& its_mesh, const Cage& its_cage, Precision precision);
+    int vertices() const { return static_cast<int>(mesh.vertices.size()); }
+
+    const Mesh& mesh;
+    const Cage& cage;
+    MeshLocator locator;
+    Points corners;
+    int more_nodes, panels;            ///< larger with Precision::full
+    std::vector<int> corner_at;        ///< by vertex of the mesh: the cage vertex there, or -1
+    std::vector<char> is_on_boundary;  ///< by vertex of the mesh
+  };
+  explicit IntegrationPaths(std::shared_ptr<const Domain> domain) : domain_(std::move(domain)) {}
+
+  End end_at(int node) const;
+  /// Whether a leg that starts or ends at a node may leave the cage. Added nodes count as well.
+  bool may_be_on_boundary(int node) const;
+
+  std::shared_ptr<const Domain> domain_;
+  Points added_, quadrature_points_;
   std::vector<PathStep> steps_;
   std::vector<Tail> tails_;
   std::vector<Complex> weights_;

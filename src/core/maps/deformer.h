@@ -160,6 +160,7 @@ struct EvalOptions {
 };
 
 /// The map of a pose at single points. Just outside the cage, the map is continued from inside.
+/// Threads: const functions may run at the same time.
 class PointMap {
  public:
   struct Value {
@@ -167,6 +168,10 @@ class PointMap {
   };
   virtual ~PointMap() = default;
   virtual Value at(Complex z) const = 0;
+  /// The same for many points, in less time for methods that share work between points.
+  virtual std::vector<Value> values_at(std::span<const Complex> points) const;
+  /// Whether the map is linear in each triangle of the rest's mesh.
+  virtual bool is_linear_in_triangles() const { return false; }
 };
 
 /// The final map of a pose, as a key of a motion.

@@ -23,25 +23,12 @@ bool is_clear_of(const ImageWinding::Piece& piece, Complex w) {
 
 }  // namespace
 
-Complex ImageWinding::point(const Arc& arc, double fraction) const {
-  if (fraction == 0) return arc.from;
-  if (fraction == 1) return arc.to;
-  if (arc.segment < 0) return (1 - fraction) * arc.from + fraction * arc.to;
-  return position_of(cage_, {arc.segment, (1 - fraction) * arc.start + fraction * arc.end});
-}
-
-std::array<Arc, 2> ImageWinding::cut(const Arc& arc, double fraction) const {
-  const Complex middle = point(arc, fraction);
-  const double parameter = (1 - fraction) * arc.start + fraction * arc.end;
-  return {Arc{arc.from, middle, arc.segment, arc.start, parameter},
-          Arc{middle, arc.to, arc.segment, parameter, arc.end}};
-}
-
 ImageWinding::Piece ImageWinding::piece_between(const Arc& arc, Complex from, Complex to) const {
   Piece piece{arc, from, to, 0};
   for (const double fraction : {0.25, 0.5, 0.75})
     piece.bulge = std::max(
-        piece.bulge, 2 * nearest_on_segment(from, to, map_.at(point(arc, fraction)).f).distance);
+        piece.bulge,
+        2 * nearest_on_segment(from, to, map_.at(point_on(cage_, arc, fraction)).f).distance);
   return piece;
 }
 
@@ -55,7 +42,7 @@ std::optional<double> ImageWinding::turn(const Piece& piece, Complex w, int dept
   constexpr int kDeepest = 50;
   const double least = 10 * rounding_at(w, piece.from);
   if (depth == kDeepest || std::abs(piece.to - piece.from) + piece.bulge <= least) return {};
-  const auto [first, second] = cut(piece.arc, 0.5);
+  const auto [first, second] = cut_arc(cage_, piece.arc, 0.5);
   const Complex middle = map_.at(first.to).f;
   const auto before = turn(piece_between(first, piece.from, middle), w, depth + 1);
   if (!before) return {};

@@ -7,16 +7,10 @@
 #include <array>
 #include <optional>
 
+#include "core/maps/arc.h"
 #include "core/maps/deformer.h"
 
 namespace holomorph {
-
-/// A straight line segment in a map's domain, or a part of one of the boundary's segments.
-struct Arc {
-  Complex from, to;
-  Index segment = -1;
-  double start = 0, end = 1;  ///< parameters on the segment
-};
 
 class ImageWinding {
  public:
@@ -40,10 +34,6 @@ class ImageWinding {
   /// The number of whole turns of f - w along a closed loop. Empty when w lies on the loop's image
   /// to within rounding error.
   std::optional<int> turns(std::span<const Piece> loop, Complex w) const;
-
-  /// The point at `fraction` of an arc, 0 to 1, and the two arcs into which this point divides it.
-  Complex point(const Arc& arc, double fraction) const;
-  std::array<Arc, 2> cut(const Arc& arc, double fraction) const;
 
  private:
   Piece piece_between(const Arc& arc, Complex from, Complex to) const;

@@ -18,7 +18,6 @@ constexpr double kNearby =
 constexpr double kSame = 1e-7;  ///< relative to the size; preimages closer than this are the same
 constexpr double kOn = 1e-12;
 constexpr double kBranch = 1e-5;
-constexpr double kOnCurve = 8;  ///< the mesh boundary's distance from its curve, in rounding errors
 
 int oriented(const std::vector<Preimage>& found) {
   int sum = 0;
@@ -92,22 +91,13 @@ void InverseMap::fill_cells() {
 }
 
 void InverseMap::set_up_boundary() {
-  std::vector<SegmentPolynomial> loop;
-  for (Index e = 0; e < rest_.size(); ++e) loop.emplace_back(rest_.controls(e));
-  const Loops loops = mesh_.boundary_loops();
   piece_at_.assign(mesh_.vertices.size(), -1);
-  for (size_t i = 0; i < mesh_.boundary.size(); ++i) {
-    const int v = mesh_.boundary[i],
-              next = mesh_.boundary[static_cast<size_t>(loops.next(static_cast<Index>(i)))];
+  const std::vector<Arc> arcs = boundary_arcs(rest_, mesh_);
+  for (size_t i = 0; i < arcs.size(); ++i) {
+    const int v = mesh_.boundary[i];
     boundary_.push_back(positions_[v]);
-    Arc arc{mesh_.vertices[v], mesh_.vertices[next]};
-    const auto from = contact_of(loop, arc.from, kOnCurve), to = contact_of(loop, arc.to, kOnCurve);
-    if (from && to && !loop[static_cast<size_t>(from->segment)].is_straight()) {
-      const bool ends = to->is_vertex();
-      arc = {arc.from, arc.to, from->segment, from->s, ends ? 1 : to->s};
-    }
     piece_at_[v] = static_cast<int>(pieces_.size());
-    pieces_.push_back(winding_.piece(arc));
+    pieces_.push_back(winding_.piece(arcs[i]));
     const ImageWinding::Piece& piece = pieces_.back();
     reach_ = std::max(reach_, std::abs(piece.to - piece.from));
     Box box;
@@ -341,7 +331,7 @@ void InverseMap::search_region(const Region& region, int count, Complex w, int d
   for (const double fraction : {0.5, 0.43, 0.59, 0.37}) {
     if (size < kBranch * size_ || depth == kDeepest) break;
     std::array<std::array<Arc, 2>, 3> halves;
-    for (size_t k = 0; k < 3; ++k) halves[k] = winding_.cut(region[k], fraction);
+    for (size_t k = 0; k < 3; ++k) halves[k] = cut_arc(rest_, region[k], fraction);
     const Complex p = halves[0][0].to, q = halves[1][0].to, r = halves[2][0].to;
     const std::array<Region, 4> parts{Region{halves[0][0], Arc{p, r}, halves[2][1]},
                                       Region{halves[0][1], halves[1][0], Arc{q, p}},

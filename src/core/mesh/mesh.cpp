@@ -96,15 +96,20 @@ Complex Location::in(const Mesh& mesh, std::span<const Complex> positions) const
   return z;
 }
 
+std::optional<Location> location_in(const Mesh& mesh, std::span<const Complex> positions,
+                                    int triangle, Complex z) {
+  const auto [i, j, k] = mesh.triangles[triangle];
+  const Complex a = positions[i] - z, b = positions[j] - z, c = positions[k] - z;
+  const double wa = cross(b, c), wb = cross(c, a), wc = cross(a, b), area = wa + wb + wc;
+  if (area == 0) return {};
+  const bool inside = area > 0 ? wa >= 0 && wb >= 0 && wc >= 0 : wa <= 0 && wb <= 0 && wc <= 0;
+  if (!inside) return {};
+  return Location{triangle, {wa / area, wb / area, wc / area}};
+}
+
 std::optional<Location> locate(const Mesh& mesh, std::span<const Complex> positions, Complex z) {
-  for (int t = static_cast<int>(mesh.triangles.size()) - 1; t >= 0; --t) {
-    const auto [i, j, k] = mesh.triangles[t];
-    const Complex a = positions[i] - z, b = positions[j] - z, c = positions[k] - z;
-    const double wa = cross(b, c), wb = cross(c, a), wc = cross(a, b), area = wa + wb + wc;
-    if (area == 0) continue;
-    const bool inside = area > 0 ? wa >= 0 && wb >= 0 && wc >= 0 : wa <= 0 && wb <= 0 && wc <= 0;
-    if (inside) return Location{t, {wa / area, wb / area, wc / area}};
-  }
+  for (int t = static_cast<int>(mesh.triangles.size()) - 1; t >= 0; --t)
+    if (const auto found = location_in(mesh, positions, t, z)) return found;
   return {};
 }
 

@@ -46,6 +46,11 @@ struct Location {
   Complex in(const Mesh& mesh, std::span<const Complex> positions) const;
 };
 
+/// Where z lies in one triangle when the mesh's vertices are at `positions`; none if it lies
+/// outside or the triangle is flat.
+std::optional<Location> location_in(const Mesh& mesh, std::span<const Complex> positions,
+                                    int triangle, Complex z);
+
 /// The last triangle (the one drawn on top) that contains z when the mesh's vertices are at
 /// `positions`. Inverted triangles count, too. Cost: about 1 ns per triangle.
 std::optional<Location> locate(const Mesh& mesh, std::span<const Complex> positions, Complex z);

@@ -67,35 +67,49 @@ class AnglePoints final : public PointMap {
         paths_(*mesh_, cage(), Precision::full),
         flat_(flattened(cage())),
         placed_(std::move(placed)),
+        sum_(map_.sum(placed_.theta)),
+        exponents_(map_.exponents(placed_.theta)),
         at_vertices_(std::move(at_vertices)) {}
 
-  Value at(Complex z) const override {
-    if (contains(cage(), z)) return inside(z);
+  Value at(Complex z) const override { return values_at({&z, 1})[0]; }
+
+  std::vector<Value> values_at(std::span<const Complex> points) const override {
     // Outside the cage the coordinates are different functions, so the map is continued linearly.
-    const Complex edge = position_of(cage(), nearest_on(cage(), flat_, z));
-    Value value = inside(edge);
-    value.f += value.fz * (z - edge);
-    return value;
+    Points inside;
+    for (const Complex& z : points)
+      inside.push_back(contains(cage(), z) ? z : position_of(cage(), nearest_on(cage(), flat_, z)));
+    std::vector<Value> values = values_inside(inside);
+    for (size_t i = 0; i < points.size(); ++i)
+      values[i].f += values[i].fz * (points[i] - inside[i]);
+    return values;
   }
 
  private:
   const Cage& cage() const { return map_.coordinates().cage(); }
 
-  Value inside(Complex z) const {
-    IntegrationPaths paths = paths_;
-    const int from = paths.vertex_near(z), node = paths.add_node(z);
-    const VectorXc slopes = slopes_at(paths.quadrature_points());
-    VectorXc nodes = VectorXc::Zero(paths.nodes());
-    nodes[from] = at_vertices_[from];
-    paths.integrate(slopes, map_.exponents(placed_.theta), nodes);
-    const Complex next_to_vertex = point_inside_vertex(cage(), z);
-    return {placed_.scale * nodes[node] + placed_.move,
-            placed_.scale * slopes_at({&next_to_vertex, 1})[0], 0};
+  bool is_inside(Complex z) const {
+    return is_straight(cage()) ? encloses(flat_, z) : contains(cage(), z);
+  }
+
+  std::vector<Value> values_inside(const Points& points) const {
+    IntegrationPaths paths = paths_.without_steps();
+    std::vector<Index> nodes;
+    for (const Complex& z : points) nodes.push_back(paths.add_node(z));
+    VectorXc integral(paths.nodes());
+    integral.head(at_vertices_.size()) = at_vertices_;
+    paths.integrate(slopes_at(paths.quadrature_points()), exponents_, integral);
+    Points next_to_vertices = points;
+    for (Complex& z : next_to_vertices) z = point_inside_vertex(cage(), z);
+    const VectorXc slopes = slopes_at(next_to_vertices);
+    std::vector<Value> values;
+    for (size_t i = 0; i < points.size(); ++i)
+      values.push_back({placed_.scale * integral[nodes[i]] + placed_.move,
+                        placed_.scale * slopes[static_cast<Index>(i)], 0});
+    return values;
   }
 
   VectorXc slopes_at(std::span<const Complex> points) const {
-    const VectorXc theta = placed_.theta.cast<Complex>();
-    return (kI * (map_.rows(points) * theta)).array().exp();
+    return (kI * map_.coordinates().values(points, sum_)).array().exp();
   }
 
   std::shared_ptr<const Mesh> mesh_;
@@ -103,16 +117,22 @@ class AnglePoints final : public PointMap {
   IntegrationPaths paths_;
   FlatCage flat_;
   PlacedAngles placed_;
+  HilbertCoordinates::Sum sum_;  ///< log f' / i
+  VectorXd exponents_;           ///< of f' at the corners
   VectorXc at_vertices_;
 };
 
 class AnglesDeformer final : public Deformer {
  public:
-  explicit AnglesDeformer(const Rest& rest)
+  /// `coordinates` belong to the same cage and corners, or are null.
+  explicit AnglesDeformer(const Rest& rest,
+                          std::shared_ptr<const HilbertCoordinates> coordinates = nullptr)
       : rest_(rest),
         boundary_(rest),
-        coordinates_(std::make_shared<const HilbertCoordinates>(
-            boundary_.cage, corner_values(boundary_.cage, boundary_.corners))),
+        coordinates_(coordinates
+                         ? std::move(coordinates)
+                         : std::make_shared<const HilbertCoordinates>(
+                               boundary_.cage, corner_values(boundary_.cage, boundary_.corners))),
         map_(*rest_.mesh, coordinates_, rest_.samples, rest_.precision),
         frame_(*rest_.mesh, coordinates_, rest_.precision),
         acting_(usable_pins(rest_)) {
@@ -160,10 +180,7 @@ class AnglesDeformer final : public Deformer {
   std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
     check_pose(rest_, pose);
     if (published_) return nullptr;
-    Rest rest = rest_;
-    rest.samples = rest_.mesh->vertices;
-    rest.precision = Precision::full;
-    AnglesDeformer whole(rest);
+    AnglesDeformer whole = on_whole_mesh();
     SampledMap ignored;
     const PlacedAngles placed = whole.place(pose, false, nullptr, ignored);
     VectorXc f;
@@ -175,6 +192,15 @@ class AnglesDeformer final : public Deformer {
   struct Found : Solution {
     VectorXd unknowns;  ///< of AnglePins
   };
+
+  /// A deformer that gives the map at the mesh's vertices in full precision.
+  AnglesDeformer on_whole_mesh() const {
+    if (rest_.precision == Precision::full && rest_.samples == rest_.mesh->vertices) return *this;
+    Rest rest = rest_;
+    rest.samples = rest_.mesh->vertices;
+    rest.precision = Precision::full;
+    return AnglesDeformer(rest, coordinates_);
+  }
 
   SampledMap answer_as_published(const PlacedAngles& placed, EvalOptions options,
                                  SampledMap out) const {

@@ -8,6 +8,7 @@
 
 #include "core/arithmetic.h"
 #include "core/error.h"
+#include "core/maps/mesh_point_map.h"
 #include "core/methods/handles.h"
 #include "core/methods/rows.h"
 
@@ -68,28 +69,17 @@ class ArapDeformer final : public Deformer {
 
   using Deformer::deform;
   SampledMap deform(const Pose& pose, EvalOptions options, const Solution* from) override {
-    const Points targets = handles_.targets(pose);
     SampledMap out;
-    out.note = handles_.note();
-    const auto found = std::make_shared<Found>();
-    if (const auto rigid = handles_.rigid(targets)) {
-      found->turn = rigid->factor;
-      found->f.resize(static_cast<Index>(mesh_.vertices.size()));
-      for (Index i = 0; i < found->f.size(); ++i)
-        found->f[i] = rigid->factor == Complex(1) && rigid->from == rigid->to
-                          ? mesh_.vertices[static_cast<size_t>(i)]
-                          : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
-    } else {
-      const auto* before = dynamic_cast<const Found*>(from);
-      const bool continues = options.draft && before && before->f.size() == vertices();
-      found->f = continues ? before->f : start(targets);
-      const int most = options.draft ? kDraftRounds : kMostRounds;
-      out.iterations = minimize(targets, most, options.stop, found->f);
-      if (out.iterations == most) out.status = SampledMap::Status::iterating;
-    }
+    const auto found =
+        std::make_shared<const Found>(solved(pose, options, dynamic_cast<const Found*>(from), out));
     answer(*found, out, options);
     out.solution = found;
     return out;
+  }
+
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    SampledMap ignored;
+    return std::make_unique<MeshPointMap>(rest_.mesh, solved(pose, {}, nullptr, ignored).f);
   }
 
  private:
@@ -97,6 +87,29 @@ class ArapDeformer final : public Deformer {
     VectorXc f;                   ///< at the vertices
     std::optional<Complex> turn;  ///< rotation of the whole picture when it moves rigidly
   };
+
+  /// Drafts continue from `before` unless it is null. Sets the remarks in `out`.
+  Found solved(const Pose& pose, const EvalOptions& options, const Found* before,
+               SampledMap& out) const {
+    const Points targets = handles_.targets(pose);
+    out.note = handles_.note();
+    Found found;
+    if (const auto rigid = handles_.rigid(targets)) {
+      found.turn = rigid->factor;
+      found.f.resize(vertices());
+      for (Index i = 0; i < found.f.size(); ++i)
+        found.f[i] = rigid->factor == Complex(1) && rigid->from == rigid->to
+                         ? mesh_.vertices[static_cast<size_t>(i)]
+                         : (*rigid)(mesh_.vertices[static_cast<size_t>(i)]);
+      return found;
+    }
+    const bool continues = options.draft && before && before->f.size() == vertices();
+    found.f = continues ? before->f : start(targets);
+    const int most = options.draft ? kDraftRounds : kMostRounds;
+    out.iterations = minimize(targets, most, options.stop, found.f);
+    if (out.iterations == most) out.status = SampledMap::Status::iterating;
+    return found;
+  }
 
   Index vertices() const { return static_cast<Index>(mesh_.vertices.size()); }
   Complex opposite(const Triangle& t, int corner) const {

@@ -4,6 +4,7 @@
 
 #include "core/bounded/path_integral.h"
 #include "core/maps/deformer.h"
+#include "core/mesh/locator.h"
 
 namespace holomorph {
 
@@ -12,11 +13,22 @@ class BoundedPointMap final : public PointMap {
  public:
   BoundedPointMap(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,
                   LogMap map, VectorXc f)
-      : basis_(std::move(basis)), mesh_(std::move(mesh)), map_(std::move(map)), f_(std::move(f)) {}
+      : basis_(std::move(basis)),
+        mesh_(std::move(mesh)),
+        locator_(*mesh_),
+        map_(std::move(map)),
+        f_(std::move(f)) {}
 
   Value at(Complex z) const override {
     const SampledMap map = at(std::span(&z, 1));
     return {map.f[0], map.fz[0], map.fzbar[0]};
+  }
+
+  std::vector<Value> values_at(std::span<const Complex> points) const override {
+    const SampledMap map = at(points);
+    std::vector<Value> values;
+    for (Index i = 0; i < map.f.size(); ++i) values.push_back({map.f[i], map.fz[i], map.fzbar[i]});
+    return values;
   }
 
   const VectorXc& at_vertices() const { return f_; }
@@ -28,11 +40,7 @@ class BoundedPointMap final : public PointMap {
     map.f.resize(static_cast<Index>(points.size()));
     std::vector<Line> lines;
     for (size_t i = 0; i < points.size(); ++i) {
-      const Triangle& corners =
-          mesh_->triangles[static_cast<size_t>(locate_near(*mesh_, points[i]).triangle)];
-      const int from = *std::ranges::min_element(corners, {}, [&](int v) {
-        return std::norm(mesh_->vertices[static_cast<size_t>(v)] - points[i]);
-      });
+      const int from = locator_.vertex_near(points[i]);
       lines.push_back({mesh_->vertices[static_cast<size_t>(from)], points[i]});
       map.f[static_cast<Index>(i)] = f_[from];
     }
@@ -46,6 +54,7 @@ class BoundedPointMap final : public PointMap {
  private:
   std::shared_ptr<const BoundaryBasis> basis_;
   std::shared_ptr<const Mesh> mesh_;
+  MeshLocator locator_;
   LogMap map_;
   VectorXc f_;
 };

@@ -26,6 +26,26 @@ constexpr double kStill = 1e-6;
 constexpr double kHandlePull = 1e3;  ///< weight of a handle, relative to the mean energy
 constexpr double kDefinite = 1e-9;   ///< fixes a constant that can move between Phi and Psi
 
+/// f = Phi + conj(Psi) + the sum of c ln|z - a| over all holes.
+class HarmonicPoints final : public PointMap {
+ public:
+  SumMap sum;
+  Points holes;
+  VectorXc logs;
+  double size = 1;
+
+  Value at(Complex z) const override {
+    Value value = sum.at(z);
+    for (size_t h = 0; h < holes.size(); ++h) {
+      const Complex c = logs[static_cast<Index>(h)], slope = 0.5 / (z - holes[h]);
+      value.f += c * std::log(std::abs(z - holes[h]) / size);
+      value.fz += c * slope;
+      value.fzbar += c * std::conj(slope);
+    }
+    return value;
+  }
+};
+
 class HarArapDeformer final : public Deformer {
  public:
   explicit HarArapDeformer(const Rest& rest)
@@ -74,6 +94,28 @@ class HarArapDeformer final : public Deformer {
       out.fzbar += slopes.conjugate() * found->logs;
     }
     return out;
+  }
+
+  std::unique_ptr<PointMap> point_map(const Pose& pose) const override {
+    HarArapDeformer copy(rest_);
+    const SampledMap map = copy.deform(pose, {});
+    auto points = std::make_unique<HarmonicPoints>();
+    if (const auto* found = dynamic_cast<const Found*>(map.solution.get())) {
+      const Cage polygon = polygon_cage(basis_.polygon());
+      const VectorXc rest = controls_of(polygon);
+      // A SumMap adds the identity, whose controls are the polygon's points.
+      points->sum.terms.emplace_back(polygon, found->phi - rest);
+      points->sum.conjugates.emplace_back(polygon, found->psi);
+      points->holes = holes_;
+      points->logs = found->logs;
+      points->size = size_;
+    } else {  // a rigid motion
+      const Similarity rigid = *handles_.rigid(handles_.targets(pose));
+      points->sum.slope = rigid.factor - 1.0;
+      points->sum.center = rigid.from;
+      points->sum.constant = rigid.to - rigid.from;
+    }
+    return points;
   }
 
  private:

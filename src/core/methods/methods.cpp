@@ -59,6 +59,13 @@ std::unique_ptr<Deformer> Method::prepare(const Rest& rest, const Deformer* prev
   return make(rest, previous);
 }
 
+std::vector<PointMap::Value> PointMap::values_at(std::span<const Complex> points) const {
+  std::vector<Value> values;
+  values.reserve(points.size());
+  for (const Complex& z : points) values.push_back(at(z));
+  return values;
+}
+
 Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_pins) rest.pins.clear();
   if (!method.uses_strokes) rest.strokes.clear();

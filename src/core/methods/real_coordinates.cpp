@@ -12,12 +12,19 @@ class RealPoints final : public PointMap {
   RealPoints(std::shared_ptr<const RealCoordinates> coordinates, VectorXc displacement)
       : coordinates_(std::move(coordinates)), displacement_(std::move(displacement)) {}
 
-  Value at(Complex z) const override {
-    const std::span<const Complex> point(&z, 1);
-    const MatrixXd h = coordinates_->values(point);
-    const MatrixXc slope = coordinates_->slopes(point);
-    return {z + (h * displacement_)[0], 1.0 + 0.5 * (slope * displacement_)[0],
-            0.5 * std::conj((slope * displacement_.conjugate())[0])};
+  Value at(Complex z) const override { return values_at({&z, 1})[0]; }
+
+  std::vector<Value> values_at(std::span<const Complex> points) const override {
+    const VectorXc moved = coordinates_->values(points) * displacement_;
+    const MatrixXc slopes = coordinates_->slopes(points);
+    const VectorXc fz = 0.5 * (slopes * displacement_),
+                   fzbar = 0.5 * (slopes * displacement_.conjugate()).conjugate();
+    std::vector<Value> values;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const Index row = static_cast<Index>(i);
+      values.push_back({points[i] + moved[row], 1.0 + fz[row], fzbar[row]});
+    }
+    return values;
   }
 
  private:

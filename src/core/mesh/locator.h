@@ -1,0 +1,32 @@
+// Finds the triangles of a mesh that contain points, by a grid of cells.
+#pragma once
+
+#include "core/mesh/mesh.h"
+
+namespace holomorph {
+
+/// Gives the same answers as `locate` and `locate_near` at the rest positions of a mesh, for many
+/// points. Threads: const functions may run at the same time.
+class MeshLocator {
+ public:
+  /// The mesh must outlive the locator. Cost: linear in the number of triangles.
+  explicit MeshLocator(const Mesh& mesh);
+
+  /// Cost: a few triangles.
+  std::optional<Location> at(Complex z) const;
+  /// Cost: for points outside the mesh, as `locate_near`.
+  Location near(Complex z) const;
+  /// The vertex nearest to z among those of the triangle `near(z)`.
+  int vertex_near(Complex z) const;
+
+ private:
+  /// The triangles whose boxes touch a cell, from `first` up to the next cell's `first`.
+  size_t cell_of(Complex z) const;
+
+  const Mesh& mesh_;
+  Box box_;
+  int columns_ = 1, rows_ = 1;
+  std::vector<int> first_, triangles_;
+};
+
+}  // namespace holomorph

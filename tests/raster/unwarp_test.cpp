@@ -1,0 +1,143 @@
+// ST-maps and unwarped pictures: each pixel shows the point that the map takes there.
+#include "raster/unwarp.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/cauchy/cauchy.h"
+#include "raster/picture.h"
+#include "scene/timed_map.h"
+#include "support/seeds.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+constexpr int kWidth = 400, kHeight = 400;
+
+/// A star with straight or curved edges and a random pose for a method.
+Scene random_scene(const Method& method, bool curved, unsigned seed) {
+  std::mt19937 random(seed);
+  Deformation deformation;
+  deformation.method = method.id;
+  deformation.rest =
+      curved ? shapes::curved_star(7, 3, 0.2, seed) : polygon_cage(shapes::star(7, 0.3, seed));
+  deformation.pose = deformation.rest;
+  for (Points& segment : deformation.pose.segments)
+    for (Complex& z : segment) z += 15.0 * random_complex(random);
+  if (method.uses_pins)
+    for (int i = 0; i < 3; ++i) {
+      const Complex z = Complex(200, 200) + std::polar(45.0, 2 * kPi * i / 3);
+      deformation.pins.push_back({z, z + 12.0 * random_complex(random), {}, {}});
+    }
+  if (method.uses_strokes) {
+    const Points stroke{{160, 190}, {200, 205}, {240, 190}};
+    Points posed = stroke;
+    for (Complex& z : posed) z += 6.0 * random_complex(random);
+    deformation.strokes.push_back({stroke, posed});
+  }
+  return scene_of(deformation);
+}
+
+/// The position in the picture that an ST-map has at a pixel.
+Complex entry(const StMap& map, int column, int row) {
+  const float* st = &map.st[2 * (static_cast<size_t>(row) * static_cast<size_t>(map.width) +
+                                 static_cast<size_t>(column))];
+  return {st[0] * static_cast<double>(kWidth), st[1] * static_cast<double>(kHeight)};
+}
+
+}  // namespace
+
+TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel") {
+  for (const unsigned seed : seeds_of("ST-map", {}))
+    for (size_t m = 0; m < methods().size(); ++m) {
+      const Method& method = methods()[m];
+      const bool curved = (m + seed) % 2 != 0;
+      const Scene scene = random_scene(method, curved, seed);
+      INFO(method.id << ", seed " << seed << (curved ? ", curved" : ""));
+      const double scale = 1.5;
+      const StMap map = st_map_of(scene, kWidth, kHeight, scale);
+      REQUIRE(map.width == 600);
+      REQUIRE(map.height == 600);
+      TimedMap timed(scene);
+      const auto inverse = timed.inverse(timed.frame({}));
+      REQUIRE(inverse);
+      std::mt19937 random(seed);
+      double worst = 0;
+      int shown = 0, missing = 0, wrong = 0;
+      for (int i = 0; i < 400; ++i) {
+        const int column = static_cast<int>(random() % 600), row = static_cast<int>(random() % 600);
+        const Complex w((column + 0.5) / scale, kHeight - (row + 0.5) / scale);
+        const Complex z = entry(map, column, row);
+        const std::vector<Preimage> exact = inverse->inverse.at(w);
+        if (!is_finite(z)) {
+          missing += !exact.empty();
+          wrong += exact.empty() && !contains(scene.deformation().rest, w);
+        } else if (exact.empty()) {  // points outside the cage do not move
+          wrong += std::abs(z - w) > 1e-3 || contains(scene.deformation().rest, w);
+        } else {
+          ++shown;
+          worst = std::max(worst, scale * std::abs(inverse->map->at(z).f - w));
+        }
+      }
+      CHECK(worst <= kUnwarpAccuracy);
+      CHECK(shown > 40);
+      CHECK(missing + wrong == 0);  // a pixel's center is never that close to the boundary
+    }
+}
+
+TEST_CASE("ST-map: the part that is drawn on top counts") {
+  // A bar bent like a U, whose limbs overlap: the one with the greater depth covers the other.
+  for (const int depth : {1, -1}) {
+    Deformation deformation =
+        with_cage(Deformation{},
+                  Points{{20, 180}, {200, 180}, {380, 180}, {380, 220}, {200, 220}, {20, 220}});
+    deformation.method = "arap";
+    deformation.pins = {{{60, 200}, {100, 190}, {}, {}},
+                        {{200, 200}, {300, 200}, {}, {}},
+                        {{340, 200}, {100, 210}, {}, {}}};
+    deformation.pins[2].depth = depth;
+    const Scene scene = scene_of(deformation);
+    const StMap map = st_map_of(scene, kWidth, kHeight);
+    const Complex at_end = entry(map, 150, kHeight - 200);
+    INFO("depth " << depth);
+    CHECK((at_end.real() > 200) == (depth > 0));
+  }
+}
+
+TEST_CASE("Unwarping a posed picture gives the picture back") {
+  for (const unsigned seed : seeds_of("Unwarp", {3}))
+    for (const char* id : {"cage", "pins", "angles", "puppet", "arap"}) {
+      const Scene scene = random_scene(method_named(id), false, seed);
+      Image smooth(kWidth, kHeight);
+      for (int r = 0; r < kHeight; ++r)
+        for (int c = 0; c < kWidth; ++c) {
+          const double wave = std::sin(c / 23.0) * std::cos(r / 31.0);
+          std::uint8_t* p = smooth.at(c, r);
+          p[0] = static_cast<std::uint8_t>(128 + 100 * wave);
+          p[1] = static_cast<std::uint8_t>(128 + 90 * std::sin((c + r) / 40.0));
+          p[2] = static_cast<std::uint8_t>(c / 2);
+          p[3] = 255;
+        }
+      PictureOptions crop;
+      crop.crop = true;
+      const Image bent = picture_of(scene, &smooth, crop).image, back = unwarped(scene, &bent);
+      REQUIRE(back.width == kWidth);
+      INFO(id << ", seed " << seed);
+      int solid = 0, far = 0;
+      TimedMap timed(scene);
+      const auto inverse = timed.inverse(timed.frame({}));
+      for (int r = 3; r < kHeight; r += 7)
+        for (int c = 3; c < kWidth; c += 7) {
+          const Complex z(c + 0.5, kHeight - r - 0.5);
+          if (!contains(scene.deformation().rest, z) || back.at(c, r)[3] < 255) continue;
+          // Where the posed picture overlaps itself, it does not show z.
+          const std::vector<Preimage> shown = inverse->inverse.at(inverse->map->at(z).f);
+          if (shown.size() != 1) continue;
+          ++solid;
+          for (int k = 0; k < 3; ++k) far += std::abs(back.at(c, r)[k] - smooth.at(c, r)[k]) > 12;
+        }
+      CHECK(solid > 200);
+      CHECK(far <= solid / 50);
+    }
+}
