@@ -16,9 +16,11 @@
 #include "core/maps/inverse.h"
 #include "core/mesh/mesher.h"
 #include "core/methods/linear.h"
+#include "raster/picture.h"
 #include "raster/raster.h"
 #include "raster/unwarp.h"
 #include "scene/auto_cage.h"
+#include "scene/keyframes.h"
 #include "scene/live_map.h"
 
 namespace holomorph::bench {
@@ -322,6 +324,20 @@ double add_pin_ms(int runs) {
   });
 }
 
+/// A wavy cage of 32 points and three pins in a picture of 1000 x 1000, with three keyframes over
+/// 100 frames.
+Deformation moving_shape(const char* method) {
+  Deformation deformation = scene_with(wavy(32, {500, 500}, 390));
+  deformation.method = method;
+  for (const Complex z : {Complex(300, 450), Complex(500, 750), Complex(650, 400)})
+    deformation.pins.push_back({z, z, {}, {}});
+  for (int key = 0; key < 3; ++key) {
+    for (Pin& pin : deformation.pins) pin.pose = pin.rest + 30.0 * std::polar(1.0, 2.0 * key);
+    deformation = with_key(std::move(deformation), 2.0 * key);
+  }
+  return deformation;
+}
+
 double export_ms(int side, int vertices, int runs, int threads) {
   const Image image = gradient(side);
   const Deformation deformation = scene_with(wavy(vertices, {side / 2.0, side / 2.0}, 0.39 * side));
@@ -335,6 +351,23 @@ double export_ms(int side, int vertices, int runs, int threads) {
     job.threads = threads;
     rasterized(job);
   });
+}
+
+/// The time per frame of a film of 100 frames of 1000 x 1000 pixels with three keyframes, on all
+/// cores, from preparation to pixels.
+double film_frame_ms(const char* method) {
+  constexpr int kFrames = 100;
+  const Image image = gradient(1000);
+  Scene scene = scene_of(moving_shape(method));
+  const double start = now_ms();
+  PictureMaker maker(scene, &image);
+  PictureOptions options{};
+  options.region = maker.motion_region();
+  for (int frame = 0; frame < kFrames; ++frame) {
+    options.time = frame / scene.animation.frames_per_second;
+    maker.picture(options);
+  }
+  return (now_ms() - start) / kFrames;
 }
 
 double auto_cage_ms(int runs) {
@@ -474,6 +507,9 @@ const Entry kEntries[] = {
      [](int runs) { return export_ms(4000, 32, runs, 1); }},
     {"export: 4000 x 4000, 128-vertex cage, pose to pixels, two cores", "ms", 100, 9,
      [](int runs) { return export_ms(4000, 128, runs, 2); }},
+    {"film: 1000 x 1000, puppet, a frame of 100 before encoding, with preparation", "ms", 40, 1,
+     [](int) { return film_frame_ms("puppet"); }},
+    {"film: the same, cage", "ms", 40, 1, [](int) { return film_frame_ms("cage"); }},
     {"auto-cage: 2000 x 2000 picture", "ms", 0, 5, auto_cage_ms},
 };
 

@@ -2,6 +2,7 @@
 #include "raster/picture.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.h"
 #include "core/maps/distortion.h"
@@ -48,7 +49,7 @@ class PictureMaker::LayerMaker {
       const SampledMap map = map_at(options.time, true);
       job.heat = heat_values(options.view, distortion_of(map));
       job.scale = heat_scale(options.view, job.heat, options.automatic_range);
-      positions_.emplace(options.time, map.f);
+      keep(options.time, map.f);
     }
     const VectorXc& f = positions_at(options.time);
     if (!drawn_) drawn_ = drawn_mesh(prepared_->mesh, deformation_);
@@ -119,12 +120,23 @@ class PictureMaker::LayerMaker {
   }
 
  private:
-  /// The map without derivatives. Layers that follow this one ask for the same time again, and
-  /// without keyframes, all times have the same map.
-  const VectorXc& positions_at(std::optional<double> time) {
-    if (deformation_.keyframes.empty()) time.reset();
-    if (!positions_ || positions_->first != time) positions_.emplace(time, map_at(time, false).f);
-    return positions_->second;
+  /// The map without derivatives. It is kept, because layers that follow this one ask for the same
+  /// time again, and so does a film that first looks for the pixels that are filled.
+  const VectorXc& positions_at(const std::optional<double>& time) {
+    const auto known = positions_.find(moment(time));
+    return known != positions_.end() ? known->second : keep(time, map_at(time, false).f);
+  }
+
+  const VectorXc& keep(const std::optional<double>& time, VectorXc positions) {
+    constexpr size_t kMostKept = size_t{1} << 28;  // bytes
+    const size_t each = sizeof(Complex) * static_cast<size_t>(positions.size());
+    if ((positions_.size() + 1) * each > kMostKept) positions_.clear();
+    return positions_.insert_or_assign(moment(time), std::move(positions)).first->second;
+  }
+
+  /// Without keyframes, all times have the same map.
+  std::optional<double> moment(const std::optional<double>& time) const {
+    return deformation_.keyframes.empty() ? std::nullopt : time;
   }
 
   RasterJob job_of(const PictureOptions& options, double top) const {
@@ -163,7 +175,7 @@ class PictureMaker::LayerMaker {
   std::shared_ptr<const Mesh> drawn_;
   std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
   Motion motion_;
-  std::optional<std::pair<std::optional<double>, VectorXc>> positions_;  ///< of the last time
+  std::map<std::optional<double>, VectorXc> positions_;  ///< by time
   std::vector<std::pair<Attachment, Anchor>> anchors_;
 };
 
