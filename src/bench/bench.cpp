@@ -289,6 +289,10 @@ double prepare_method_ms(const char* method, int points, int runs) {
   Deformation deformation = scene_with(wavy(points, {500, 500}, 350));
   const auto before = prepared_map(deformation, Precision::single, {7500});
   deformation.method = method;
+  for (const Complex z : {Complex(400, 450), Complex(500, 650), Complex(600, 400)})
+    deformation.pins.push_back({z, z, {}, {}});
+  const Points stroke{{400, 500}, {500, 520}, {600, 500}};
+  deformation.strokes.push_back({stroke, stroke});
   return median_ms(runs,
                    [&] { prepared_map(deformation, Precision::single, {7500}, before.get()); });
 }
@@ -439,9 +443,23 @@ const Entry kEntries[] = {
      [](int runs) { return prepare_method_ms("mean_value", 512, runs); }},
     {"prepare: mean value, 1000 points, 9k vertices, without the mesh", "ms", 8000, 3,
      [](int runs) { return prepare_method_ms("mean_value", 1000, runs); }},
-    {"prepare: harmonic, 64 points, 9k vertices, without the mesh", "ms", 0, 3,
-     [](int runs) { return prepare_method_ms("harmonic", 64, runs); }, "points",
-     [](int runs) { return prepare_method_ms("harmonic", 128, runs); }},
+    {"prepare: harmonic, 128 points, 9k vertices, without the mesh", "ms", 0, 3,
+     [](int runs) { return prepare_method_ms("harmonic", 128, runs); }, "points",
+     [](int runs) { return prepare_method_ms("harmonic", 256, runs); }},
+    {"prepare: harmonic, 256 points, 9k vertices, without the mesh", "ms", 500, 1,
+     [](int runs) { return prepare_method_ms("harmonic", 256, runs); }},
+    {"prepare: angles, 128 points, 9k vertices, without the mesh", "ms", 0, 1,
+     [](int runs) { return prepare_method_ms("angles", 128, runs); }, "points",
+     [](int runs) { return prepare_method_ms("angles", 256, runs); }},
+    {"prepare: angles, 256 points, 9k vertices, without the mesh", "ms", 500, 1,
+     [](int runs) { return prepare_method_ms("angles", 256, runs); }},
+    {"prepare: strokes, 256 points, 9k vertices, without the mesh", "ms", 500, 3,
+     [](int runs) { return prepare_method_ms("strokes", 256, runs); }},
+    {"prepare: strokes, 1000 points, 9k vertices, without the mesh", "ms", 8000, 1,
+     [](int runs) { return prepare_method_ms("strokes", 1000, runs); }},
+    {"prepare: pins, 256 points, 9k vertices, without the mesh", "ms", 500, 3,
+     [](int runs) { return prepare_method_ms("pins", 256, runs); }, "points",
+     [](int runs) { return prepare_method_ms("pins", 512, runs); }},
     {"pins: one more pin at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
     {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
     {"bounded: drag, 50 vertices, 300 samples, 5k mesh vertices, with proof, median of 300 frames",

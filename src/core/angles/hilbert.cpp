@@ -327,6 +327,25 @@ MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) cons
   return values;
 }
 
+MatrixXd HilbertCoordinates::real_parts(std::span<const Complex> points) const {
+  const Index logs = log_coefficients_.rows(), all = logs + coefficients_.rows();
+  MatrixXd factors(2 * all, coefficients_.cols());
+  factors << log_coefficients_.real(), coefficients_.real(), -log_coefficients_.imag(),
+      -coefficients_.imag();
+  const MatrixXd linear = parts_.linear;
+  MatrixXd parts(static_cast<Index>(points.size()), coefficients_.cols());
+  for_each_block(points, [&](Index first, std::span<const Complex> some) {
+    MatrixXc functions(static_cast<Index>(some.size()), all);
+    functions << logarithms(some, 0), basis(some, 0);
+    MatrixXd halves(functions.rows(), 2 * all);
+    halves << functions.real(), functions.imag();
+    const MatrixXd values = matrix_product(halves, factors);
+    const MatrixXd missing = linear_functions(some, 0).real() - values * linear;
+    parts.middleRows(first, values.rows()) = values + missing * correction_weights_;
+  });
+  return parts;
+}
+
 MatrixXc HilbertCoordinates::block(std::span<const Complex> points, int order) const {
   const MatrixXc values = matrix_product(logarithms(points, order), log_coefficients_) +
                           matrix_product(basis(points, order), coefficients_);

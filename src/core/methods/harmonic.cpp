@@ -30,20 +30,37 @@ class HarmonicCoordinates final : public RealCoordinates {
     for (Index e = 0; e < cage.size(); ++e) segments_.emplace_back(cage.controls(e));
   }
 
-  MatrixXd values(std::span<const Complex> points) const override { return at(points, 0).real(); }
-  MatrixXc slopes(std::span<const Complex> points) const override { return at(points, 1); }
+  MatrixXd values(std::span<const Complex> points) const override {
+    const Continued continued = continuation(points, 0);
+    MatrixXd h = hilbert_.real_parts(continued.places);
+    if (continued.outside.empty()) return h;
+    const MatrixXc slopes = hilbert_.at(continued.slope_places, 1);
+    for (size_t k = 0; k < continued.outside.size(); ++k)
+      h.row(continued.outside[k]) +=
+          (continued.steps[k] * slopes.row(static_cast<Index>(k))).real();
+    return h;
+  }
+
+  MatrixXc slopes(std::span<const Complex> points) const override {
+    return hilbert_.at(continuation(points, 1).places, 1);
+  }
 
  private:
-  /// One row per point: g (order 0) or g' (order 1).
-  MatrixXc at(std::span<const Complex> points, int order) const {
-    Points places, slope_places, steps;
+  /// Where the functions are evaluated. Those of points outside are continued from the boundary.
+  struct Continued {
+    Points places;
     std::vector<Index> outside;
+    Points slope_places, steps;  ///< for each point outside
+  };
+
+  Continued continuation(std::span<const Complex> points, int order) const {
+    Continued at;
     for (const Complex& z : points) {
       if (is_inside(z)) {
-        places.push_back(order == 0 ? z : point_inside_vertex(cage_, z));
+        at.places.push_back(order == 0 ? z : point_inside_vertex(cage_, z));
         continue;
       }
-      outside.push_back(static_cast<Index>(places.size()));
+      at.outside.push_back(static_cast<Index>(at.places.size()));
       const NearestPoint near = nearest_on_polygon(flat_, z);
       const BoundaryPoint foot = flat_.on_edge(near.edge, near.t);
       constexpr double kLeast =
@@ -51,16 +68,11 @@ class HarmonicCoordinates final : public RealCoordinates {
       const Complex on = position_of(cage_, foot),
                     off_ends =
                         position_of(cage_, {foot.segment, std::clamp(foot.t, kLeast, 1 - kLeast)});
-      places.push_back(order == 0 ? on : off_ends);
-      slope_places.push_back(off_ends);
-      steps.push_back(z - on);
+      at.places.push_back(order == 0 ? on : off_ends);
+      at.slope_places.push_back(off_ends);
+      at.steps.push_back(z - on);
     }
-    MatrixXc g = hilbert_.at(places, order);
-    if (order > 0 || outside.empty()) return g;
-    const MatrixXc slopes = hilbert_.at(slope_places, 1);
-    for (size_t k = 0; k < outside.size(); ++k)
-      g.row(outside[k]) += steps[k] * slopes.row(static_cast<Index>(k));
-    return g;
+    return at;
   }
 
   /// Returns whether z is inside the cage or on its boundary.
