@@ -45,6 +45,14 @@ struct PuppetFigures {
 };
 PuppetFigures puppet_drag(int vertices);
 
+/// Figures for a drag of 60 frames of As rigid as possible with 10 pins, for a mesh of about this
+/// many vertices: the median time of a frame, and by how much a frame's energy is above the
+/// converged one, at most.
+struct RigidFigures {
+  double median_ms = 0, above_percent = 0;
+};
+RigidFigures rigid_drag(int vertices);
+
 /// The time of a frame in which one of five strokes is dragged, without evaluating the map on the
 /// mesh. Each stroke has 20 samples.
 double strokes_drag_ms(int runs);

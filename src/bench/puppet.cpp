@@ -1,10 +1,11 @@
-// Benchmarks of puppet drags: a body with eight limbs, of which one is dragged.
+// Benchmarks of drags with pins: a body with eight limbs, of which one is dragged.
 #include <algorithm>
 
 #include "bench/measures.h"
 #include "core/clock.h"
 #include "core/isometric/isometric_space.h"
 #include "core/isometric/mesh_display.h"
+#include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
 
 namespace holomorph::bench {
@@ -25,7 +26,59 @@ Points limbed_body() {
   return outline;
 }
 
+/// The drag that all figures are about: one limb swings out and back.
+Complex dragged_by(double t) {
+  return 150 * std::sin(kPi * t) * std::polar(1.0, 2 + 2 * t);
+}
+
+/// The energy of As rigid as possible, without the handles.
+double rigid_energy(const Mesh& mesh, const VectorXc& f) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const auto [fz, fzbar] = derivatives_in(mesh, t, f);
+    const double bent = std::abs(fz) - 1;
+    const auto corner = [&](int k) { return mesh.vertices[static_cast<size_t>(t[k])]; };
+    sum += 0.5 * cross(corner(1) - corner(0), corner(2) - corner(0)) *
+           (bent * bent + std::norm(fzbar));
+  }
+  return sum;
+}
+
 }  // namespace
+
+RigidFigures rigid_drag(int vertices) {
+  Rest rest;
+  rest.cage = polygon_cage(limbed_body());
+  rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {vertices}));
+  rest.samples = rest.mesh->vertices;
+  rest.pins = {{{0, 0}}, {{20, 30}}};
+  for (int limb = 0; limb < kLimbs; ++limb)
+    rest.pins.push_back({std::polar(280.0, 2 * kPi * limb / kLimbs)});
+  const auto deformer = method_named("arap").prepare(rest, nullptr);
+  Pose pose{rest.cage, {}};
+  for (const RestPin& pin : rest.pins) pose.pins.push_back({pin.position});
+  RigidFigures figures;
+  std::vector<double> times;
+  SampledMap map = deformer->deform(pose, {});
+  constexpr int kFrames = 60, kComparedEvery = 6;
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    pose.pins[3].position =
+        rest.pins[3].position + dragged_by(static_cast<double>(frame) / kFrames);
+    const double start = now_ms();
+    map = deformer->deform(pose, {.draft = true}, map.solution.get());
+    times.push_back(now_ms() - start);
+    if (frame % kComparedEvery != 0 || frame == kFrames) continue;
+    SampledMap converged = map;
+    for (int more = 0; more < 100; ++more)
+      converged = deformer->deform(pose, {.draft = true}, converged.solution.get());
+    const double least = rigid_energy(*rest.mesh, converged.f);
+    figures.above_percent =
+        std::max(figures.above_percent, 100 * (rigid_energy(*rest.mesh, map.f) - least) / least);
+  }
+  std::ranges::nth_element(times, times.begin() + kFrames / 2);
+  figures.median_ms = times[kFrames / 2];
+  return figures;
+}
 
 PuppetFigures puppet_drag(int vertices) {
   const Cage cage = polygon_cage(limbed_body());
@@ -52,7 +105,7 @@ PuppetFigures puppet_drag(int vertices) {
   constexpr int kFrames = 120, kComparedEvery = 10;
   for (int frame = 1; frame <= kFrames; ++frame) {
     const double t = static_cast<double>(frame) / kFrames;
-    target.stations[3] = 150 * std::sin(kPi * t) * std::polar(1.0, 2 + 2 * t);
+    target.stations[3] = dragged_by(t);
     const double start = now_ms();
     map = space.followed(target, settings, map);
     shown = display.values(map.map);

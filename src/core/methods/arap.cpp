@@ -161,9 +161,12 @@ class ArapDeformer final : public Deformer {
         for (int a = 0; a < 3; ++a) right[t[a]] += times(kI * opposite(t, a), turn);
       }
       add_targets(targets, right);
+      Eigen::MatrixX2d parts(f.size(), 2);  // one pass over the factor for both
+      parts << right.real(), right.imag();
+      parts = rigid_.solve(parts).eval();
       VectorXc next(f.size());
-      next.real() = rigid_.solve(right.real().eval());
-      next.imag() = rigid_.solve(right.imag().eval());
+      next.real() = parts.col(0);
+      next.imag() = parts.col(1);
       moved = (next - f).cwiseAbs().maxCoeff();
       f = std::move(next);
     }
