@@ -8,6 +8,7 @@
 
 #include "bench/known_maps.h"
 #include "bench/measures.h"
+#include "bench/wavy.h"
 #include "core/cauchy/cauchy.h"
 #include "core/clock.h"
 #include "core/compared/comparison.h"
@@ -25,16 +26,6 @@
 
 namespace holomorph::bench {
 namespace {
-
-/// A wavy closed cage of n vertices.
-Points wavy(int n, Complex center, double radius) {
-  Points polygon;
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * kPi * i / n;
-    polygon.push_back(center + radius * (1 + 0.25 * std::sin(5 * angle)) * std::polar(1.0, angle));
-  }
-  return polygon;
-}
 
 Deformation scene_with(const Points& polygon) {
   Deformation deformation;
@@ -116,23 +107,10 @@ double scalar_log_ns(int runs) {
   return ms * 1e6 / (static_cast<double>(mesh.vertices.size()) * 100);
 }
 
-/// A cage of 20 segments around (500, 500), each a curve of this degree.
-Cage wavy_curves(int degree, double bulge) {
-  Cage cage = polygon_cage(wavy(20, {500, 500}, 350));
-  const Points corners = vertices_of(cage);
-  for (Index e = 0; e < cage.size(); ++e) {
-    const Complex a = corners[e], side = corners[(e + 1) % corners.size()] - a;
-    for (int m = 1; m < degree; ++m)
-      cage.segments[e].push_back(
-          a + side * Complex(static_cast<double>(m) / degree, m % 2 ? bulge : -bulge));
-  }
-  return cage;
-}
-
 double curved_prepare_ms(int runs) {
   Deformation deformation;
-  deformation.rest = wavy_curves(3, 0.2);
-  deformation.pose = wavy_curves(3, 0.1);
+  deformation.rest = wavy_curves(20, 3, 0.2);
+  deformation.pose = wavy_curves(20, 3, 0.1);
   return median_ms(runs, [&] { prepared_map(deformation, Precision::single, {8700}); });
 }
 
@@ -145,7 +123,7 @@ struct PolygonRoute {
 };
 
 PolygonRoute polygon_route() {
-  const Cage rest = wavy_curves(3, 0.2);
+  const Cage rest = wavy_curves(20, 3, 0.2);
   const Mesh domain = domain_mesh(rest, {8700});
   const double start = now_ms();
   const Cage polygon = elevated_to(polygon_cage(vertices_of(rest)), rest);
@@ -181,7 +159,7 @@ double raised_coordinates_ns(int degree, int runs) {
 double inverse_ms(int runs) {
   Deformation deformation;
   deformation.rest = polygon_cage(wavy(20, {500, 500}, 350));
-  deformation.pose = wavy_curves(3, 0.15);
+  deformation.pose = wavy_curves(20, 3, 0.15);
   const auto prepared = prepared_map(deformation, Precision::full, {4000});
   SampledMap map = prepared->deformer->deform(pose_of(deformation), {});
   const auto points = prepared->deformer->point_map(pose_of(deformation));
@@ -238,7 +216,7 @@ Deformation pulled_bar() {
 /// of frames that were not certified.
 enum class DragFigure { median, longest, unproved };
 
-double bounded_drag(DragFigure figure) {
+double bar_drag(DragFigure figure) {
   Deformation deformation = pulled_bar();
   const auto prepared = prepared_map(deformation, Precision::single, {5000});
   std::vector<double> times;
@@ -256,6 +234,10 @@ double bounded_drag(DragFigure figure) {
   if (figure == DragFigure::longest) return *std::max_element(times.begin(), times.end());
   std::nth_element(times.begin(), times.begin() + 150, times.end());
   return times[150];
+}
+
+Cage wavy_points(int n) {
+  return polygon_cage(wavy(n, {500, 500}, 350));
 }
 
 /// The median time to project and prove the slowest of the known maps, from a cold start.
@@ -463,11 +445,44 @@ const Entry kEntries[] = {
     {"pins: one more pin at 15k vertices, 100-vertex cage", "ms", 20, 15, add_pin_ms},
     {"drag: pose to vertex positions, 15k x 100", "ms", 1, 51, frame_ms},
     {"bounded: drag, 50 vertices, 300 samples, 5k mesh vertices, with proof, median of 300 frames",
-     "ms", 16, 1, [](int) { return bounded_drag(DragFigure::median); }},
+     "ms", 16, 1, [](int) { return bar_drag(DragFigure::median); }},
     {"bounded: the same, the longest frame", "ms", 33, 1,
-     [](int) { return bounded_drag(DragFigure::longest); }},
+     [](int) { return bar_drag(DragFigure::longest); }},
     {"bounded: the same, frames without a proof", "", 0, 1,
-     [](int) { return bounded_drag(DragFigure::unproved); }},
+     [](int) { return bar_drag(DragFigure::unproved); }},
+    {"bounded: drag, 48 points, 5 pins, 5k mesh vertices, with proof, median of 300 frames", "ms",
+     6, 1, [](int) { return bounded_drag(wavy_points(48), "pins").median_ms; }},
+    {"bounded: the same, 48 points, the longest frame", "ms", 16, 1,
+     [](int) { return bounded_drag(wavy_points(48), "pins").longest_ms; }},
+    {"bounded: drag, 20 cubics, 5 pins, 5k mesh vertices, with proof, median of 300 frames", "ms",
+     10, 1, [](int) { return bounded_drag(wavy_curves(20, 3, 0.2), "pins").median_ms; }},
+    {"bounded: the same, 20 cubics, the longest frame", "ms", 20, 1,
+     [](int) { return bounded_drag(wavy_curves(20, 3, 0.2), "pins").longest_ms; }},
+    {"bounded: drag, 40 cubics, 5 pins, 5k mesh vertices, with proof, median of 300 frames", "ms",
+     16, 1, [](int) { return bounded_drag(wavy_curves(40, 3, 0.2), "pins").median_ms; }},
+    {"bounded: the same, 40 cubics, the longest frame", "ms", 33, 1,
+     [](int) { return bounded_drag(wavy_curves(40, 3, 0.2), "pins").longest_ms; }},
+    {"bounded: drag, 128 points, 5 pins, 5k mesh vertices, with proof, median of 300 frames", "ms",
+     33, 1, [](int) { return bounded_drag(wavy_points(128), "pins").median_ms; }},
+    {"bounded: the same, 128 points, the longest frame", "ms", 50, 1,
+     [](int) { return bounded_drag(wavy_points(128), "pins").longest_ms; }},
+    {"bounded: drag, 256 points, 5 pins, 5k mesh vertices, with proof, median of 300 frames", "ms",
+     66, 1, [](int) { return bounded_drag(wavy_points(256), "pins").median_ms; }},
+    {"bounded: the same, 256 points, the longest frame", "ms", 100, 1,
+     [](int) { return bounded_drag(wavy_points(256), "pins").longest_ms; }},
+    {"bounded: drag, 48 points, as rigid as possible, 5 pins, 5k mesh vertices, with proof, median "
+     "of 300 frames",
+     "ms", 12, 1, [](int) { return bounded_drag(wavy_points(48), "arap").median_ms; }},
+    {"bounded: the same, 48 points, as rigid as possible, the longest frame", "ms", 25, 1,
+     [](int) { return bounded_drag(wavy_points(48), "arap").longest_ms; }},
+    {"bounded: frames of these drags without a proof", "", 0, 1,
+     [](int) {
+       double unproved = bounded_drag(wavy_points(48), "arap").unproved;
+       for (const Cage& cage : {wavy_points(48), wavy_curves(20, 3, 0.2), wavy_curves(40, 3, 0.2),
+                                wavy_points(128), wavy_points(256)})
+         unproved += bounded_drag(cage, "pins").unproved;
+       return unproved;
+     }},
     {"bounded: cold L1 solve and proof, 50 vertices, 300 samples, slowest of six maps", "ms", 16, 5,
      [](int runs) {
        return bounded_solve_ms({50, 300}, runs);

@@ -1,8 +1,11 @@
-// The benchmarks for outlines, angles, keyframes and strokes, and the timer that all benchmarks
-// use.
+// The benchmarks for bounded maps, outlines, angles, keyframes and strokes, and the timer that all
+// benchmarks use.
 #pragma once
 
 #include <functional>
+#include <string>
+
+#include "core/geometry/cage.h"
 
 namespace holomorph::bench {
 
@@ -35,6 +38,14 @@ double playback_ms(int runs);
 /// The largest relative error of the area, in percent, while a bar is bent by 270 degrees. With
 /// `linear_blend`, positions are blended linearly.
 double inbetween_loss_percent(bool linear_blend);
+
+/// Figures for a drag of 300 frames of a map without folds that follows a method, with 5 pins and
+/// 5k mesh vertices: the frame times, and the number of frames that were not certified.
+struct BoundedDrag {
+  double median_ms = 0, longest_ms = 0;
+  int unproved = 0;
+};
+BoundedDrag bounded_drag(const Cage& cage, const std::string& reference);
 
 /// Figures for a drag of 120 frames of a puppet with 10 pins and 10k mesh vertices, with proof and
 /// evaluation on the mesh, for a basis with about this many vertices.
