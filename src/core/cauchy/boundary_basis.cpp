@@ -3,8 +3,11 @@
 #include "core/cauchy/boundary_basis.h"
 
 #include <Eigen/QR>
+#include <Eigen/SparseCore>
 #include <algorithm>
+#include <numeric>
 
+#include "core/arithmetic.h"
 #include "core/cauchy/cauchy.h"
 #include "core/cauchy/cauchy_array.h"
 #include "core/error.h"
@@ -195,7 +198,85 @@ BoundaryPiece piece_of(const Cage& domain, Index segment, double from, double to
   return piece;
 }
 
-BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
+namespace {
+
+/// The vertices of a loop between which coefficients are interpolated: one for each `spacing` along
+/// the loop, and those where the loop bends.
+std::vector<Index> kept_vertices(PolygonView polygon, Index loop, double spacing) {
+  constexpr double kMostBent = 1.2;  // length of the path between two kept vertices over its chord
+  const Loops loops = polygon.loops();
+  std::vector<Index> kept{loops.first(loop)};
+  double along = 0, kept_at = 0, mark = spacing;
+  for (Index i = loops.first(loop) + 1; i < loops.end(loop); ++i) {
+    along += std::abs(polygon[i] - polygon[i - 1]);
+    const Complex next = polygon[loops.next(i)];
+    const double path = along - kept_at + std::abs(next - polygon[i]);
+    if (along < mark && path < kMostBent * std::abs(next - polygon[kept.back()])) continue;
+    kept.push_back(i);
+    kept_at = along;
+    mark = spacing * (std::floor(along / spacing) + 1);
+  }
+  return kept;
+}
+
+/// The vertices that have coefficients of their own in a basis with at most about `most` unknowns,
+/// for each loop.
+std::vector<std::vector<Index>> kept_vertices(PolygonView polygon, Index most) {
+  const Loops loops = polygon.loops();
+  std::vector<double> lengths(static_cast<size_t>(loops.count()), 0);
+  double around = 0;
+  polygon.for_each_edge([&](Index i, Complex a, Complex b) {
+    lengths[static_cast<size_t>(loops.loop_of(i))] += std::abs(b - a);
+    around += std::abs(b - a);
+  });
+  std::vector<std::vector<Index>> kept;
+  for (Index l = 0; l < loops.count(); ++l) {
+    constexpr double kFewest = 12;
+    if (most < polygon.size()) {
+      kept.push_back(kept_vertices(
+          polygon, l,
+          std::min(around / static_cast<double>(most), lengths[kept.size()] / kFewest)));
+    } else {
+      kept.emplace_back(static_cast<size_t>(loops.length(l)));
+      std::iota(kept.back().begin(), kept.back().end(), loops.first(l));
+    }
+  }
+  return kept;
+}
+
+/// The matrix that extends the coefficients at these vertices to all vertices, without changing the
+/// values of 1 and z. Two vertices of each hole have the coefficient 0.
+Eigen::SparseMatrix<Complex> extension(PolygonView polygon,
+                                       const std::vector<std::vector<Index>>& kept) {
+  std::vector<Eigen::Triplet<Complex>> entries;
+  int columns = 0;
+  for (size_t l = 0; l < kept.size(); ++l) {
+    const size_t count = kept[l].size();
+    std::vector<int> column(count, -1);
+    for (size_t k = 0; k < count; ++k)
+      if (l == 0 || (k != 0 && k != count / 2)) column[k] = columns++;
+    const auto add = [&](Index vertex, size_t k, Complex weight) {
+      if (column[k] >= 0) entries.emplace_back(static_cast<int>(vertex), column[k], weight);
+    };
+    for (size_t k = 0; k < count; ++k) {
+      const size_t after = (k + 1) % count;
+      const Index first = kept[l][k], last = kept[l][after];
+      add(first, k, 1);
+      for (Index i = polygon.loops().next(first); i != last; i = polygon.loops().next(i)) {
+        const Complex part = quotient(polygon[i] - polygon[first], polygon[last] - polygon[first]);
+        add(i, k, 1.0 - part);
+        add(i, after, part);
+      }
+    }
+  }
+  Eigen::SparseMatrix<Complex> matrix(polygon.size(), columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples, std::optional<int> most)
     : domain_(oriented(domain)) {
   check_rest_cage(domain);
   const double around = perimeter(flattened(domain_));
@@ -207,22 +288,18 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples)
   for (const BoundaryPiece& piece : around_domain.pieces)
     for (const BoundaryPiece& part : subdivided(domain_, piece, each)) pieces_.push_back(part);
   samples_ = starts_of(domain_, pieces_);
-  independent_ = independent_controls(polygon_cage(polygon_));
-  const MatrixXc c = independent(values(samples_.points));
+  const Eigen::SparseMatrix<Complex> extended =
+      extension(polygon_, kept_vertices(polygon_, most.value_or(static_cast<int>(size()))));
+  const MatrixXc c = values(samples_.points) * extended;
   check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");
   const Eigen::HouseholderQR<MatrixXc> qr(c);
   const double root = std::sqrt(static_cast<double>(c.rows()));
   const MatrixXc r = qr.matrixQR().topRows(c.cols()).triangularView<Eigen::Upper>();
   const MatrixXc inverse =
       root * r.triangularView<Eigen::Upper>().solve(MatrixXc::Identity(c.cols(), c.cols())).eval();
-  coefficients_ = MatrixXc::Zero(size(), c.cols());
-  for (size_t k = 0; k < independent_.size(); ++k)
-    coefficients_.row(independent_[k]) = inverse.row(static_cast<Index>(k));
+  coefficients_ = extended * inverse;
   at_samples_ = root * (qr.householderQ() * MatrixXc::Identity(c.rows(), c.cols()));
-  // The values 1 on the outer loop give F = 1.
-  VectorXc outer = VectorXc::Zero(c.cols());
-  outer.head(PolygonView(polygon_).loops().length(0)).setOnes();
-  one_ = r * outer / root;
+  one_ = at_samples_.adjoint().rowwise().mean();
 }
 
 VectorXd BoundaryBasis::sample_weights() const {
@@ -252,18 +329,6 @@ Points BoundaryBasis::inset(double share) const {
     inner[static_cast<size_t>(i)] += step;
   }
   return inner;
-}
-
-MatrixXc BoundaryBasis::independent(const MatrixXc& values) const {
-  if (independent_.size() == polygon_.points.size()) return values;
-  return values(Eigen::all, independent_);
-}
-
-VectorXc BoundaryBasis::expanded(const VectorXc& coefficients) const {
-  VectorXc all = VectorXc::Zero(size());
-  for (size_t k = 0; k < independent_.size(); ++k)
-    all[independent_[k]] = coefficients[static_cast<Index>(k)];
-  return all;
 }
 
 MatrixXc BoundaryBasis::values(std::span<const Complex> points, int order) const {

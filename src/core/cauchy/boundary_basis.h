@@ -6,10 +6,15 @@
 //
 // In a domain with holes, the polygon has a loop inside each hole. Values of 1 and of z on such a
 // loop alone give F = 0, so two of the loop's a_j are always 0.
+//
+// A polygon around many cage points or sharp bends has more vertices than a draft needs. A coarse
+// basis has an unknown for only some of them. Between these, a_j is a linear function of z_j, and F
+// is as smooth there as if the skipped vertices did not exist.
 #pragma once
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <optional>
 
 #include "core/geometry/cage.h"
 #include "core/solvers/dense.h"
@@ -47,7 +52,9 @@ class BoundaryBasis {
   /// domain, also in its holes, at a distance of a twentieth of the mean edge length. It is closer
   /// if the domain nearly touches itself. Throws Error for cages that check_rest_cage rejects.
   /// Cost: `basis` x `samples`, and a QR factorization of that size.
-  BoundaryBasis(const Cage& domain, int basis, int samples);
+  /// If `most` is given, the functions have about that many unknowns at most, no matter how many
+  /// vertices the polygon has.
+  BoundaryBasis(const Cage& domain, int basis, int samples, std::optional<int> most = {});
 
   const Cage& domain() const { return domain_; }  ///< oriented: the inside is on its left
   /// Oriented like the domain, and simple.
@@ -61,7 +68,8 @@ class BoundaryBasis {
   const std::vector<BoundaryPiece>& pieces() const { return pieces_; }
   /// The number of polygon vertices.
   Index size() const { return static_cast<Index>(polygon_.points.size()); }
-  /// The number of unknowns, which is smaller than size() in a domain with holes.
+  /// The number of unknowns, which is smaller than size() in a domain with holes and if the basis
+  /// is coarse.
   Index unknowns() const { return coefficients_.cols(); }
 
   /// The samples, moved inward. Each one moves by the fraction `share` of the distance to the
@@ -75,10 +83,6 @@ class BoundaryBasis {
   const MatrixXc& at_samples() const { return at_samples_; }  ///< the whitened basis
   /// The coefficients a_j for the given unknowns.
   VectorXc coefficients(const VectorXc& unknowns) const { return coefficients_ * unknowns; }
-  /// The columns of C that are linearly independent, and coefficients that belong to these columns
-  /// as coefficients of all columns.
-  MatrixXc independent(const MatrixXc& values) const;
-  VectorXc expanded(const VectorXc& coefficients) const;
   /// The matrix that maps unknowns to coefficients: size() x unknowns().
   const MatrixXc& coefficients() const { return coefficients_; }
   /// The unknowns of the constant function 1.
@@ -87,7 +91,6 @@ class BoundaryBasis {
  private:
   Cage domain_;
   Polygon polygon_, samples_;
-  std::vector<Index> independent_;
   std::vector<BoundaryPiece> pieces_;
   MatrixXc coefficients_, at_samples_;
   VectorXc one_;

@@ -24,16 +24,17 @@ namespace {
 
 class BoundedDeformer final : public Deformer {
  public:
-  /// The polygon of the basis has about `basis` vertices.
-  BoundedDeformer(const Rest& rest, int basis)
+  /// The polygon of the basis has about `basis` vertices. The basis has at most about `most`
+  /// unknowns.
+  BoundedDeformer(const Rest& rest, int basis, std::optional<int> most = {})
       : rest_(rest),
         method_(method_named("bounded")),
         bounds_(bounds_of(rest.parameters)),
         space_(choice(method_, rest.parameters, "space")) {
     check(rest.mesh != nullptr, "method bounded: the rest has a mesh");
     bounds_.check_usable();
-    basis_ = std::make_shared<const BoundaryBasis>(rest.cage, basis,
-                                                   ReferenceSampler::kSamplesPerVertex * basis);
+    basis_ = std::make_shared<const BoundaryBasis>(
+        rest.cage, basis, ReferenceSampler::kSamplesPerVertex * basis, most);
     on_mesh_ = std::make_unique<MapOnMesh>(*basis_, *rest.mesh);
     closing_ = std::make_unique<HoleClosing>(*basis_, *rest.mesh);
     reference_ = std::make_unique<ReferenceSampler>(
@@ -44,10 +45,11 @@ class BoundedDeformer final : public Deformer {
   }
 
   static int final_basis(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
-  /// Prepares a coarser basis, which keeps drags fast when the cage has many points.
+  /// Prepares a coarser basis, which keeps drags fast when the cage has many points or curves.
   void prepare_draft() {
-    const int coarse = BoundaryBasis::usual_size(rest_.cage.size());
-    if (coarse < final_basis(rest_.cage)) draft_ = std::make_unique<BoundedDeformer>(rest_, coarse);
+    const int coarse = BoundaryBasis::usual_size(rest_.cage.size()), most = 25 + coarse / 2;
+    if (coarse < final_basis(rest_.cage) || basis_->unknowns() > most)
+      draft_ = std::make_unique<BoundedDeformer>(rest_, coarse, most);
   }
 
   using Deformer::deform;

@@ -203,6 +203,28 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "Boundary basis: with few unknowns it still contains 1 and z, and fits smooth functions") {
+  for (const Cage& cage : {polygon_cage(shapes::comb(4)), shapes::curved_star(9, 3, 0.25, 3)}) {
+    constexpr int kMost = 40;
+    const BoundaryBasis fine(cage, 120, 360), coarse(cage, 120, 360, kMost);
+    CHECK(coarse.size() == fine.size());
+    CHECK(coarse.unknowns() <= 1.5 * kMost);  // bends keep their vertices
+    CHECK(fine.unknowns() > 1.5 * kMost);
+    const double size = box_of(coarse.samples()).diagonal(),
+                 m = static_cast<double>(coarse.samples().size());
+    const Complex center = box_of(coarse.samples()).center();
+    const auto misfit = [&](auto function) {
+      const VectorXc f = known_maps::values(function, coarse.samples());
+      const VectorXc unknowns = coarse.at_samples().adjoint() * f / m;
+      return (coarse.at_samples() * unknowns - f).cwiseAbs().maxCoeff();
+    };
+    CHECK(misfit([](Complex) { return Complex(1); }) <= 1e-10);
+    CHECK(misfit([&](Complex z) { return (z - center) / size; }) <= 1e-10);
+    CHECK(misfit([&](Complex z) { return std::exp((z - center) / size); }) <= 1e-2);
+  }
+}
+
 TEST_CASE("Boundary argument: it is continuous and closes up, with and without listed zeros") {
   const Mesh mesh = domain_mesh(known_maps::circle(40), {600});
   const Points samples = known_maps::circle(200);
