@@ -65,6 +65,8 @@ class ArapDeformer final : public Deformer {
     conformal_.compute(conformal);
     check(rigid_.info() == Eigen::Success && conformal_.info() == Eigen::Success,
           "arap: the energy is definite");
+    if (rest_.samples == mesh_.vertices) return;
+    for (const Complex& z : rest_.samples) places_.push_back(locate_near(mesh_, z));
   }
 
   using Deformer::deform;
@@ -184,8 +186,7 @@ class ArapDeformer final : public Deformer {
     out.fz.resize(count);
     out.fzbar.resize(count);
     for (Index i = 0; i < count; ++i) {
-      const Complex z = rest_.samples[static_cast<size_t>(i)];
-      const Location at = locate_near(mesh_, z);
+      const Location& at = places_[static_cast<size_t>(i)];
       const Derivatives d =
           found.turn ? Derivatives{*found.turn, 0}
                      : derivatives_of(mesh_.triangles[static_cast<size_t>(at.triangle)], found.f);
@@ -222,6 +223,7 @@ class ArapDeformer final : public Deformer {
   Rest rest_;
   const Mesh& mesh_;
   HandlePoints handles_;
+  std::vector<Location> places_;   ///< of the samples, if they are not the vertices
   std::vector<double> stiffness_;  ///< one per triangle
   double size_ = 1, handle_weight_ = 1;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
