@@ -5,6 +5,35 @@
 #include "core/solvers/real_form.h"
 
 namespace holomorph {
+namespace {
+
+/// A draft may be moved this far toward the center to be proved. Lengths change by half a percent.
+constexpr double kSlightBlend = 3e-3;
+
+/// Tolerances that no eye can tell from tighter ones. Where a draft needs more iterations, the next
+/// one continues.
+ConeSettings draft_settings() {
+  ConeSettings settings;
+  settings.gap = 3e-3;
+  settings.relative_gap = 3e-2;
+  settings.residual = 1e-2;
+  settings.neglected = 0.1;
+  settings.iterations = 10;
+  settings.first_gap = 0.03;
+  return settings;
+}
+
+ConeSettings final_settings(BoundedSettings::Norm norm) {
+  ConeSettings settings;
+  settings.gap = 1e-4;
+  settings.relative_gap = 1e-3;
+  settings.residual = norm == BoundedSettings::Norm::l1 ? 3e-3 : 1e-3;
+  settings.neglected = 0.1;
+  return settings;
+}
+
+}  // namespace
+
 BoundedSpace::BoundedSpace(std::shared_ptr<const BoundaryBasis> basis,
                            const ReferencePoints& points, const BoundedSettings& settings)
     : basis_(std::move(basis)),
@@ -77,10 +106,11 @@ ConeTarget BoundedSpace::target_of(const BoundedReference& reference) const {
 }
 
 ConeSolution BoundedSpace::start(const BoundedMap* warm) const {
+  constexpr double kPull = 0.01;  // room for the first step
   ConeSolution start;
   start.x = center_;
   if (warm && warm->solution.x.size() == center_.size()) {
-    const VectorXd x = 0.98 * warm->solution.x + 0.02 * center_;
+    const VectorXd x = (1 - kPull) * warm->solution.x + kPull * center_;
     if (is_feasible(system_, x)) {
       start.x = x;
       start.fit_duals = warm->solution.fit_duals;
@@ -110,11 +140,7 @@ double BoundedSpace::energy(const BoundedReference& reference, const ConeSolutio
 
 BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const BoundedMap* warm) const {
   const ConeTarget target = target_of(reference);
-  ConeSettings settings;
-  settings.gap = warm ? 1e-3 : 1e-4;
-  settings.relative_gap = warm ? 1e-2 : 1e-3;
-  settings.residual = settings_.norm == BoundedSettings::Norm::l1 ? 3e-3 : 1e-3;
-  settings.neglected = 0.1;
+  const ConeSettings settings = warm ? draft_settings() : final_settings(settings_.norm);
   const CertifiedProgram program{certifier_,
                                  settings_.bounds,
                                  system_,
@@ -122,7 +148,8 @@ BoundedMap BoundedSpace::nearest(const BoundedReference& reference, const Bounde
                                  [this](const VectorXd& x) { return map_of(x); },
                                  [this](const Points& points, ConeSystem& system) {
                                    append_samples(basis_->whitened(basis_->values(points)), system);
-                                 }};
+                                 },
+                                 warm ? kSlightBlend : 0};
   const VectorXd best_fit = unconstrained(reference);
   constexpr double kNothing = 1e-9;  // if the space contains the reference, it is the solution
   if (is_feasible(system_, best_fit) && energy_of(system_, target, best_fit) <= kNothing) {

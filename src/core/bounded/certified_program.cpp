@@ -42,39 +42,50 @@ BoundedMap CertifiedProgram::solved(const ConeTarget& target, const ConeSettings
                 holomorph::solved(cut, target, settings, inside(cut, start, center)), cuts);
 }
 
+void CertifiedProgram::take(ConeSolution solution, BoundedMap& map) const {
+  map.solution = std::move(solution);
+  map.map = map_of(map.solution.x);
+  map.certificate = certifier.certify(map.map, bounds);
+}
+
+void CertifiedProgram::blend(double first, double most, BoundedMap& map) const {
+  // The center is certified, and all error bounds shrink on the way there.
+  const VectorXd x = map.solution.x;
+  for (double fraction = first; !map.certificate.holds; fraction = std::min(4 * fraction, most)) {
+    map.blend = fraction;
+    ConeSolution nearer = std::move(map.solution);
+    nearer.x = (1 - fraction) * x + fraction * center;
+    take(std::move(nearer), map);
+    if (fraction == most) break;
+  }
+}
+
 BoundedMap CertifiedProgram::proved(const ConeTarget& target, const ConeSettings& settings,
                                     ConeSolution solution, const Points& cuts) const {
   BoundedMap best;
   best.cuts = cuts;
-  const auto take = [&](ConeSolution candidate) {
-    best.solution = std::move(candidate);
-    best.iterations += best.solution.iterations;
-    best.map = map_of(best.solution.x);
-    best.certificate = certifier.certify(best.map, bounds);
-  };
-  take(std::move(solution));
+  best.iterations = solution.iterations;
+  take(std::move(solution), best);
+  constexpr double kFirstBlend = 1e-5;
   constexpr int kMostRounds = 3;
   ConeSystem cut;
   for (; !best.certificate.holds && best.rounds < kMostRounds; ++best.rounds) {
+    if (slight_blend > 0) {
+      BoundedMap blended = best;
+      blend(slight_blend / 16, slight_blend, blended);
+      if (blended.certificate.holds) return blended;
+    }
     if (best.rounds == 0) {
       cut = system;
       append(best.cuts, cut);
     }
-    const Points& unproved = best.certificate.unproved;
+    const Points unproved = std::move(best.certificate.unproved);
     append(unproved, cut);
     best.cuts.insert(best.cuts.end(), unproved.begin(), unproved.end());
-    take(holomorph::solved(cut, target, settings, inside(cut, best.solution, center)));
+    take(holomorph::solved(cut, target, settings, inside(cut, best.solution, center)), best);
+    best.iterations += best.solution.iterations;
   }
-  // The center is certified, and all error bounds shrink on the way there.
-  const VectorXd x = best.solution.x;
-  for (double fraction = 1e-5; !best.certificate.holds; fraction = std::min(4 * fraction, 1.0)) {
-    best.blend = fraction;
-    ConeSolution nearer = best.solution;
-    nearer.iterations = 0;
-    nearer.x = (1 - fraction) * x + fraction * center;
-    take(std::move(nearer));
-    if (fraction == 1) break;
-  }
+  blend(kFirstBlend, 1, best);
   return best;
 }
 

@@ -33,6 +33,9 @@ struct CertifiedProgram {
   std::function<LogMap(const VectorXd& x)> map_of;
   /// Adds samples at points of the boundary.
   std::function<void(const Points& points, ConeSystem& system)> append;
+  /// How far a solution may be moved toward the center, 0 to 1, before samples are added. Drafts
+  /// save a second solution that way.
+  double slight_blend = 0;
 
   /// Solves from a feasible start. `cuts` are additional samples that are likely to be needed.
   /// Where the proof fails, more samples are added and the program is solved again. If this does
@@ -49,6 +52,12 @@ struct CertifiedProgram {
     constexpr size_t kMost = 60;
     return warm && warm->cuts.size() <= kMost ? warm->cuts : Points{};
   }
+
+ private:
+  /// Evaluates a solution and tries to prove its map.
+  void take(ConeSolution solution, BoundedMap& map) const;
+  /// Moves an unproved map toward the center, by at most the fraction `most`, until it is proved.
+  void blend(double first, double most, BoundedMap& map) const;
 };
 
 }  // namespace holomorph

@@ -80,11 +80,11 @@ class Solver {
   }
 
   /// Sets missing multipliers to z = mu s^-1. mu is the mean over the known multipliers or, if
-  /// there are none, a moderate value.
+  /// there are none, follows from settings.first_gap.
   void center_duals() {
     if (at_.z.size() != s_.size()) at_.z.assign(s_.size(), Eigen::Matrix3Xd(3, 0));
     const Index known = std::min(at_.z.empty() ? 0 : at_.z[0].cols(), m_);
-    double mu = 0.1 / static_cast<double>(std::max<Index>(m_, 1));
+    double mu = settings_.first_gap / static_cast<double>(std::max<Index>(m_, 1));
     if (known > 0) {
       mu = 0;
       for (size_t c = 0; c < s_.size(); ++c)
@@ -122,7 +122,7 @@ class Solver {
     const VectorXd residual = fit_residual(at_.x);
     constexpr double kRoom = 0.1;  // between |r| and its bound
     const double room = std::max(kRoom, k_ > 0 ? residual.cwiseAbs().mean() : 0.0);
-    const VectorXd t = residual.cwiseAbs().array() + (warm ? 0.2 * kRoom : room);
+    const VectorXd t = residual.cwiseAbs().array() + (warm ? 0.1 * kRoom : room);
     up_.s = t - residual;
     down_.s = t + residual;
     constexpr double kSurest = 0.95;

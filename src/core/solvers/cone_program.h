@@ -53,6 +53,9 @@ struct ConeSettings {
   double residual = 3e-3;   ///< tolerance for the norm of the Lagrangian's gradient
   double neglected = 0;     ///< the Hessian omits samples with a lower barrier curvature
   int iterations = 60;
+  /// The slacks times the multipliers, summed over a cone's samples, where a start has no
+  /// multipliers. Small values suit starts near the solution.
+  double first_gap = 0.1;
 };
 
 /// A strictly feasible x, the multipliers, and their accuracy.
