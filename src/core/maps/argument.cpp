@@ -1,5 +1,6 @@
-// The winding number of a triangle is the sum of the increments along its edges, so the winding
-// numbers of all triangles add up to the boundary's winding number.
+// The winding number of a triangle is the sum of what its edges contribute, so the winding numbers
+// of all triangles add up to the boundary's winding number. Edges of triangles are counted where
+// they cross the positive real axis, which needs no angles.
 #include "core/maps/argument.h"
 
 #include <algorithm>
@@ -16,11 +17,6 @@ double increment(Complex a, Complex b) {
   return std::atan2(cross(a, b), dot(a, b));
 }
 
-/// The increment along an edge, always computed from its lower vertex index to its higher one.
-double edge_increment(const VectorXc& values, int from, int to) {
-  return from < to ? increment(values[from], values[to]) : -increment(values[to], values[from]);
-}
-
 }  // namespace
 
 int winding_around_zero(const VectorXc& values) {
@@ -30,12 +26,28 @@ int winding_around_zero(const VectorXc& values) {
   return static_cast<int>(std::lround(turn / (2 * kPi)));
 }
 
+namespace {
+
+/// How often the segment from a to b crosses the positive real axis: 1 upward, -1 downward, or 0.
+int crossing(Complex a, Complex b) {
+  const bool up = a.imag() < 0 && b.imag() >= 0, down = a.imag() >= 0 && b.imag() < 0;
+  if (up && cross(a, b) > 0) return 1;
+  if (down && cross(a, b) < 0) return -1;
+  return 0;
+}
+
+/// The crossings along an edge, always computed from its lower vertex index to its higher one.
+int edge_crossing(const VectorXc& values, int from, int to) {
+  return from < to ? crossing(values[from], values[to]) : -crossing(values[to], values[from]);
+}
+
+}  // namespace
+
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values) {
   std::vector<Zero> zeros;
   for (const auto& [a, b, c] : mesh.triangles) {
-    const double turn =
-        edge_increment(values, a, b) + edge_increment(values, b, c) + edge_increment(values, c, a);
-    const int winding = static_cast<int>(std::lround(turn / (2 * kPi)));
+    const int winding =
+        edge_crossing(values, a, b) + edge_crossing(values, b, c) + edge_crossing(values, c, a);
     if (winding != 0)
       zeros.push_back({(mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0, winding});
   }
