@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCubicShare = 0.3, kLinearShare = 0.5;  ///< of the tolerance
 constexpr double kShortest = 1e-10;                      ///< an edge that is not cut, of the mesh
-constexpr int kMostRounds = 60;
+constexpr int kMostBisections = 60;
 constexpr int kMostPieces = 128;  ///< along an edge
 
 using Value = PointMap::Value;
@@ -79,7 +79,7 @@ class Cubics {
       Edge& edge = edges_[static_cast<size_t>(edge_between(mesh.boundary[i], next))];
       edge.arc = edge.a == mesh.boundary[i] ? arcs[i] : reversed(arcs[i]);
     }
-    for (int round = 0; round < kMostRounds && mark_edges(); ++round) {
+    for (int round = 0; round < kMostBisections && mark_edges(); ++round) {
       mark_longest();
       cut();
     }
