@@ -341,11 +341,12 @@ class Files(Case):
             self.assertEqual(process.wait(), 0, said)
             return said.decode()
 
-        slow = ["export", FISH, "--format", "stmap", "--scale", "0.3", "--out", self.path("o.npy")]
+        points = self.write("many.csv", "".join(f"{i % 1000},{i // 250}\n" for i in range(150000)))
+        slow = ["inverse", FISH, "--points", points, "--out", self.path("o.csv")]
         said = said_on_a_terminal(*slow)
-        self.assertRegex(said, r"export: row \d+ of 210, \d+ s")
+        self.assertRegex(said, r"inverse: point \d+ of 150000, \d+ s")
         self.assertIn("\x1b[K", said.split(" s")[-1], "the line is cleared at the end")
-        self.assertNotIn("row", run(*slow, **one_core).stderr)
+        self.assertNotIn("point", run(*slow, **one_core).stderr)
         self.assertNotIn("\x1b", said_on_a_terminal("render", self.scene, "--frames", "0..2", "--out", self.path("o.png")))
 
     def test_wrong_arguments_are_named(self):

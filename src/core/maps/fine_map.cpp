@@ -56,8 +56,6 @@ struct Edge {
 struct Piece {
   Triangle v;
   std::array<int, 3> edges;  ///< edge k leads from corner k to the next one, in some direction
-  Complex middle_f;          ///< the map at the mean of the corners
-  bool is_known = false;
 };
 
 /// The triangles in which the map is nearly cubic.
@@ -117,11 +115,11 @@ class Cubics {
   }
 
   Piece piece(const Triangle& t) {
-    return {t, {edge_between(t[0], t[1]), edge_between(t[1], t[2]), edge_between(t[2], t[0])}, {}};
+    return {t, {edge_between(t[0], t[1]), edge_between(t[1], t[2]), edge_between(t[2], t[0])}};
   }
 
-  /// Evaluates the map at the middles of edges and pieces, and marks the edges where a cubic is not
-  /// accurate enough. Returns whether there are any.
+  /// Evaluates the map at the middles of edges, and marks the edges where a cubic is not accurate
+  /// enough. Returns whether there are any.
   bool mark_edges() {
     Points points;
     std::vector<int> asked;
@@ -132,10 +130,6 @@ class Cubics {
       points.push_back(edge.middle);
       asked.push_back(static_cast<int>(e));
     }
-    for (const Piece& piece : pieces_)
-      if (!piece.is_known)
-        points.push_back((vertices_[piece.v[0]] + vertices_[piece.v[1]] + vertices_[piece.v[2]]) /
-                         3.0);
     const std::vector<Value> values = evaluated(points);
     size_t next = 0;
     bool any = false;
@@ -145,11 +139,6 @@ class Cubics {
       edge.is_known = true;
       any = (edge.is_cut = must_be_cut(edge)) || any;
     }
-    for (Piece& piece : pieces_)
-      if (!piece.is_known) {
-        piece.middle_f = values[next++].f;
-        piece.is_known = true;
-      }
     return any;
   }
 
@@ -306,18 +295,27 @@ class Cubics {
   };
 
   Cubic cubic_of(const Piece& piece) const {
-    const auto [a, b, c] = piece.v;
-    const auto side = [&](int from, int to) {
-      return cubic_between(vertices_[from], values_[from], vertices_[to], values_[to]);
-    };
-    const auto ab = side(a, b), bc = side(b, c), ca = side(c, a);
+    std::array<std::array<Complex, 4>, 3> side;
+    for (size_t k = 0; k < 3; ++k) {
+      const int from = piece.v[k], to = piece.v[(k + 1) % 3];
+      side[k] = cubic_between(vertices_[from], values_[from], vertices_[to], values_[to]);
+    }
     Cubic cubic;
-    cubic(3, 0) = ab[0], cubic(2, 1) = ab[1], cubic(1, 2) = ab[2];
-    cubic(0, 3) = bc[0], cubic(0, 2) = bc[1], cubic(0, 1) = bc[2];
-    cubic(0, 0) = ca[0], cubic(1, 0) = ca[1], cubic(2, 0) = ca[2];
-    const Complex corners = ab[0] + bc[0] + ca[0],
-                  sides = ab[1] + ab[2] + bc[1] + bc[2] + ca[1] + ca[2];
-    cubic(1, 1) = (27.0 * piece.middle_f - corners - 3.0 * sides) / 6.0;
+    cubic(3, 0) = side[0][0], cubic(2, 1) = side[0][1], cubic(1, 2) = side[0][2];
+    cubic(0, 3) = side[1][0], cubic(0, 2) = side[1][1], cubic(0, 1) = side[1][2];
+    cubic(0, 0) = side[2][0], cubic(1, 0) = side[2][1], cubic(2, 0) = side[2][2];
+    // Each edge suggests the inner Bezier point for which the derivative across it is right.
+    Complex inner = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const auto& p = side[k];
+      const Complex a = vertices_[piece.v[k]], b = vertices_[piece.v[(k + 1) % 3]],
+                    c = vertices_[piece.v[(k + 2) % 3]], beside_a = side[(k + 2) % 3][2],
+                    beside_b = side[(k + 1) % 3][1];
+      const Edge& edge = edges_[static_cast<size_t>(piece.edges[k])];
+      inner += 2.0 / 3.0 * along(edge.at_middle, c - 0.5 * (a + b)) + 0.25 * (p[0] + p[3]) +
+               0.75 * (p[1] + p[2]) - 0.5 * (beside_a + beside_b);
+    }
+    cubic(1, 1) = inner / 3.0;
     return cubic;
   }
 
@@ -329,7 +327,7 @@ class Cubics {
     };
     const int n = std::max({power_of_two_above(pieces_for(cubic.bend())), edge(0).pieces,
                             edge(1).pieces, edge(2).pieces});
-    const auto [a, b, c] = piece.v;
+    const int a = piece.v[0], b = piece.v[1], c = piece.v[2];
     const auto vertex = [&](int row, int i) {  // row 0 is the edge from a to b, row n is c
       if (row == 0) return vertex_on(edge(0), a, i, n, fine);
       if (i == n - row) return vertex_on(edge(1), b, row, n, fine);
