@@ -128,10 +128,12 @@ class PictureMaker::LayerMaker {
   }
 
   const VectorXc& keep(const std::optional<double>& time, VectorXc positions) {
-    constexpr size_t kMostKept = size_t{1} << 28;  // bytes
+    constexpr size_t kMostKept = size_t{1} << 27;  // bytes
     const size_t each = sizeof(Complex) * static_cast<size_t>(positions.size());
-    if ((positions_.size() + 1) * each > kMostKept) positions_.clear();
-    return positions_.insert_or_assign(moment(time), std::move(positions)).first->second;
+    if (positions_.size() > 1 && (positions_.size() + 1) * each > kMostKept)
+      positions_.erase(newest_);  // the first times of a film are asked for first again
+    newest_ = moment(time);
+    return positions_.insert_or_assign(newest_, std::move(positions)).first->second;
   }
 
   /// Without keyframes, all times have the same map.
@@ -176,6 +178,7 @@ class PictureMaker::LayerMaker {
   std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
   Motion motion_;
   std::map<std::optional<double>, VectorXc> positions_;  ///< by time
+  std::optional<double> newest_;                         ///< the time that was added last
   std::vector<std::pair<Attachment, Anchor>> anchors_;
 };
 

@@ -19,7 +19,7 @@ constexpr int kTaskRows = 16;  ///< rows that one task draws
 struct DrawnMesh {
   const std::vector<Triangle>& triangles;
   Points at;
-  std::vector<std::array<float, 2>> values;
+  std::vector<std::array<double, 2>> values;
 };
 
 /// The triangles that touch each band of rows.
@@ -27,12 +27,14 @@ std::vector<std::vector<int>> banded(const DrawnMesh& mesh, int height) {
   std::vector<std::vector<int>> bands(static_cast<size_t>((height + kTaskRows - 1) / kTaskRows));
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     double low = 1e300, high = -1e300;
+    bool is_finite = true;
     for (const int v : mesh.triangles[t]) {
+      is_finite = is_finite && holomorph::is_finite(mesh.at[static_cast<size_t>(v)]);
       low = std::min(low, mesh.at[static_cast<size_t>(v)].imag());
       high = std::max(high, mesh.at[static_cast<size_t>(v)].imag());
     }
     const double last_band = static_cast<double>(bands.size()) - 1;
-    if (high < 0 || low > height) continue;
+    if (!is_finite || high < 0 || low > height) continue;
     for (int band = static_cast<int>(std::max(0.0, std::floor(low / kTaskRows)));
          band <= static_cast<int>(std::min(last_band, std::floor(high / kTaskRows))); ++band)
       bands[static_cast<size_t>(band)].push_back(static_cast<int>(t));
@@ -50,9 +52,9 @@ void draw(const DrawnMesh& mesh, const Triangle& t, int first_row, int end_row, 
   }
   const double ax = x[1] - x[0], ay = y[1] - y[0], bx = x[2] - x[0], by = y[2] - y[0],
                area = ax * by - ay * bx;
-  if (area == 0) return;
+  if (!(std::abs(area) > 1e-12)) return;
   const auto [low, high] = std::minmax({y[0], y[1], y[2]});
-  const int begin = std::max(first_row, static_cast<int>(std::floor(low))),
+  const int begin = std::max(first_row, static_cast<int>(std::max(low, 0.0))),
             end = std::min(end_row, static_cast<int>(std::min(high, 1e9)) + 1);
   // In a sliver, rounding must not lead beyond the corners' values.
   const auto [least_s, most_s] = std::minmax({s[0], s[1], s[2]});
@@ -97,14 +99,18 @@ void draw_rows(std::initializer_list<const DrawnMesh*> meshes, StMap& map,
   });
 }
 
+void check_scale(double scale, int width, int height) {
+  if (!(scale > 0) || !(std::max(width, height) * scale <= 16384))
+    throw Error(ErrorKind::bad_input,
+                "the scale must be positive and give at most 16384 pixels on a side");
+}
+
 }  // namespace
 
 StMap st_map_of(const Scene& scene, int picture_width, int picture_height, double scale,
                 std::optional<double> time, const RowProgress& progress) {
   const double width = picture_width, height = picture_height;
-  if (!(scale > 0) || !(std::max(width, height) * scale <= 16384))
-    throw Error(ErrorKind::bad_input,
-                "the scale must be positive and give at most 16384 pixels on a side");
+  check_scale(scale, picture_width, picture_height);
   if (picture_width <= 0 || picture_height <= 0)
     throw Error(ErrorKind::bad_input, "an ST-map needs a picture, and the scene has none");
   StMap map{std::max(1, static_cast<int>(std::lround(width * scale))),
@@ -121,18 +127,22 @@ StMap st_map_of(const Scene& scene, int picture_width, int picture_height, doubl
       out[0] = static_cast<float>((c + 0.5) / scale / width);
       out[1] = static_cast<float>(1 - (row + 0.5) / scale / height);
     }
-  const auto drawn = [&](const Points& at) {
-    DrawnMesh mesh{fine.mesh.triangles, {}, {}};
-    for (const Complex& z : at) mesh.at.emplace_back(z.real() * scale, (height - z.imag()) * scale);
-    return mesh;
+  const auto drawn = [&](const Mesh& mesh, const Points& at) {
+    DrawnMesh drawn{mesh.triangles, {}, {}};
+    for (const Complex& z : at)
+      drawn.at.emplace_back(z.real() * scale, (height - z.imag()) * scale);
+    return drawn;
   };
-  DrawnMesh empty = drawn(fine.mesh.vertices), posed = drawn(fine.f);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  empty.values.assign(fine.f.size(), {nan, nan});
+  // What leaves its position shows nothing. The fine mesh follows curves, but lacks the triangles
+  // with images that are not finite.
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  DrawnMesh coarse = drawn(timed.mesh(), timed.mesh().vertices),
+            left = drawn(fine.mesh, fine.mesh.vertices), posed = drawn(fine.mesh, fine.f);
+  coarse.values.assign(coarse.at.size(), {kNan, kNan});
+  left.values.assign(left.at.size(), {kNan, kNan});
   for (const Complex& z : fine.mesh.vertices)
-    posed.values.push_back(
-        {static_cast<float>(z.real() / width), static_cast<float>(z.imag() / height)});
-  draw_rows({&empty, &posed}, map, progress);
+    posed.values.push_back({z.real() / width, z.imag() / height});
+  draw_rows({&coarse, &left, &posed}, map, progress);
   return map;
 }
 
@@ -140,6 +150,7 @@ Image unwarped(const Scene& scene, const Image* picture, double scale, std::opti
                const RowProgress& progress) {
   if (!picture)
     throw Error(ErrorKind::bad_input, "there is nothing to unwarp: the scene has no picture");
+  check_scale(scale, picture->width, picture->height);
   TimedMap timed(scene);
   FineMap fine =
       timed.fine(timed.frame(time), kUnwarpAccuracy / scale, [&] { progress(0, picture->height); });

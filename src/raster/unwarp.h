@@ -18,7 +18,8 @@ struct StMap {
 };
 
 /// What both functions below promise: the map of a position that they use is within this distance,
-/// in pixels of the result, of the pixel's center.
+/// in pixels of the result, of the pixel's center, up to the rounding of single precision. Not at
+/// points where a map's derivative is infinite, such as sharp corners of angle maps.
 inline constexpr double kUnwarpAccuracy = 0.01;
 
 using RowProgress = std::function<void(int done, int all)>;
@@ -34,7 +35,8 @@ StMap st_map_of(
     std::optional<double> time = {}, const RowProgress& progress = [](int, int) {});
 
 /// Maps a picture of the posed scene back to rest: the result shows at z what `picture` shows at
-/// f(z). Nothing is drawn outside the cage. Throws Error if the cage or the picture is missing.
+/// f(z). Nothing is drawn outside the cage. Calls `progress` with 0 rows from time to time, so that
+/// an exception can end the computation. Throws Error if the cage or the picture is missing.
 Image unwarped(
     const Scene& scene, const Image* picture, double scale = 1, std::optional<double> time = {},
     const RowProgress& progress = [](int, int) {});

@@ -15,7 +15,7 @@ namespace holomorph {
 /// vertex, a power is integrated exactly.
 class IntegrationPaths {
  public:
-  /// The first nodes are the mesh's vertices. Mesh and cage must stay alive while steps are added.
+  /// The first nodes are the mesh's vertices. Mesh and cage must outlive the paths.
   /// Precision::full uses nearly twice as many quadrature points.
   IntegrationPaths(const Mesh& mesh, const Cage& cage, Precision precision);
   /// Paths without steps on the same mesh and cage, which are made quickly.

@@ -14,8 +14,8 @@ struct Zero {
 };
 
 /// Zeros of the function with these values at mesh.vertices. A zero on an edge is counted in
-/// exactly one of the edge's triangles, because both triangles use the same increment. Cost:
-/// linear.
+/// exactly one of the edge's triangles, because both triangles count the edge in the same way.
+/// Cost: linear.
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values);
 
 /// The winding number around 0 of the values along a closed loop.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "core/error.h"
 #include "core/geometry/orientation.h"
 #include "core/maps/arc.h"
 
@@ -14,8 +15,8 @@ namespace {
 
 constexpr double kCubicShare = 0.3, kLinearShare = 0.5;  ///< of the tolerance
 constexpr double kShortest = 1e-10;                      ///< an edge that is not cut, of the mesh
-constexpr int kMostBisections = 60;
-constexpr int kMostPieces = 128;  ///< along an edge
+constexpr int kMostPieces = 128;                         ///< along an edge
+constexpr size_t kMostTriangles = 20'000'000;
 
 using Value = PointMap::Value;
 
@@ -33,6 +34,11 @@ bool is_finite(const Value& at) {
 std::array<Complex, 4> cubic_between(Complex a, const Value& at_a, Complex b, const Value& at_b) {
   const Complex third = (b - a) / 3.0;
   return {at_a.f, at_a.f + along(at_a, third), at_b.f - along(at_b, third), at_b.f};
+}
+
+/// The larger second difference of a cubic's Bezier points.
+double bend_of(const std::array<Complex, 4>& p) {
+  return std::max(std::abs(p[0] - 2.0 * p[1] + p[2]), std::abs(p[1] - 2.0 * p[2] + p[3]));
 }
 
 /// The smallest power of two that is at least x.
@@ -77,9 +83,10 @@ class Cubics {
       Edge& edge = edges_[static_cast<size_t>(edge_between(mesh.boundary[i], next))];
       edge.arc = edge.a == mesh.boundary[i] ? arcs[i] : reversed(arcs[i]);
     }
-    for (int round = 0; round < kMostBisections && mark_edges(); ++round) {
+    while (mark_edges()) {
       mark_longest();
       cut();
+      check_size(pieces_.size());
     }
   }
 
@@ -91,12 +98,21 @@ class Cubics {
     for (const Value& at : values_) fine.f.push_back(at.f);
     for (Edge& edge : edges_)
       if (edge.vertex < 0) divide_edge(edge, fine);
-    for (const Piece& piece : pieces_) divide(piece, fine);
+    for (const Piece& piece : pieces_) {
+      divide(piece, fine);
+      check_size(fine.mesh.triangles.size());
+    }
     set_boundary(fine.mesh);
     return fine;
   }
 
  private:
+  static void check_size(size_t triangles) {
+    if (triangles > kMostTriangles)
+      throw Error(ErrorKind::bad_input,
+                  "the picture is bent too much to be mapped at this size; choose a smaller scale");
+  }
+
   static Arc reversed(const Arc& arc) {
     return {arc.to, arc.from, arc.segment, arc.end, arc.start};
   }
@@ -148,9 +164,15 @@ class Cubics {
     if (!is_finite(at_a) || !is_finite(at_b) || !is_finite(edge.at_middle)) return false;
     const auto p = cubic_between(a, at_a, b, at_b);
     const Complex cubic = (p[0] + 3.0 * (p[1] + p[2]) + p[3]) / 8.0;
-    const double miss = std::abs(edge.at_middle.f - along(edge.at_middle, off) - cubic);
-    const double most = kCubicShare * tolerance_;
-    if (std::abs(b - a) > shortest_ && std::max(miss, std::abs(off)) > most) return true;
+    // A remainder of degree five vanishes at the middle, but its slope there does not: it is up to
+    // 7 times the remainder.
+    const Complex slope = 0.75 * (p[3] - p[0] + p[2] - p[1]);
+    const double miss = std::max(std::abs(edge.at_middle.f - along(edge.at_middle, off) - cubic),
+                                 std::abs(along(edge.at_middle, b - a) - slope) / 7);
+    const bool is_long = std::abs(b - a) > shortest_;
+    if (is_long && (std::max(miss, std::abs(off)) > kCubicShare * tolerance_ ||
+                    pieces_for(bend_of(p)) > kMostPieces))
+      return true;
     error_ = std::max(error_, miss);
     return false;
   }
@@ -228,9 +250,7 @@ class Cubics {
   void divide_edge(Edge& edge, FineMap& fine) const {
     const Complex a = vertices_[edge.a], b = vertices_[edge.b];
     const auto p = cubic_between(a, values_[edge.a], b, values_[edge.b]);
-    const double bend =
-        std::max(std::abs(p[0] - 2.0 * p[1] + p[2]), std::abs(p[1] - 2.0 * p[2] + p[3]));
-    edge.pieces = power_of_two_above(pieces_for(bend));
+    edge.pieces = power_of_two_above(pieces_for(bend_of(p)));
     edge.first = static_cast<int>(fine.f.size());
     for (int i = 1; i < edge.pieces; ++i) {
       const double t = static_cast<double>(i) / edge.pieces, s = 1 - t;

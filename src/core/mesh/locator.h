@@ -12,7 +12,7 @@ class MeshLocator {
   /// The mesh must outlive the locator. Cost: linear in the number of triangles.
   explicit MeshLocator(const Mesh& mesh);
 
-  /// Cost: a few triangles.
+  /// Cost: a few triangles, if they have similar sizes.
   std::optional<Location> at(Complex z) const;
   /// Cost: for points outside the mesh, as `locate_near`.
   Location near(Complex z) const;
@@ -20,13 +20,13 @@ class MeshLocator {
   int vertex_near(Complex z) const;
 
  private:
-  /// The triangles whose boxes touch a cell, from `first` up to the next cell's `first`.
   size_t cell_of(Complex z) const;
 
   const Mesh& mesh_;
   Box box_;
   int columns_ = 1, rows_ = 1;
-  std::vector<int> first_, triangles_;
+  /// The triangles whose boxes touch each cell, cell by cell, and where each cell's begin.
+  std::vector<int> triangles_, first_;
 };
 
 }  // namespace holomorph

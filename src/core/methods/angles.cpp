@@ -77,7 +77,7 @@ class AnglePoints final : public PointMap {
     // Outside the cage the coordinates are different functions, so the map is continued linearly.
     Points inside;
     for (const Complex& z : points)
-      inside.push_back(contains(cage(), z) ? z : position_of(cage(), nearest_on(cage(), flat_, z)));
+      inside.push_back(is_inside(z) ? z : position_of(cage(), nearest_on(cage(), flat_, z)));
     std::vector<Value> values = values_inside(inside);
     for (size_t i = 0; i < points.size(); ++i)
       values[i].f += values[i].fz * (points[i] - inside[i]);

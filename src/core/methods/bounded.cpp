@@ -70,7 +70,7 @@ class BoundedDeformer final : public Deformer {
       out.extremes = nu_ ? nu_->extremes(found->solution.map) : psi_->extremes(found->solution.map);
     out.iterations = found->conformal.iterations + found->solution.iterations;
     out.ignores_pins = !reference_->uses_pins();
-    out.note = note(pose, *found);
+    out.note = note(pose, *found, options.draft);
     out.solution = found;
     return out;
   }
@@ -285,14 +285,14 @@ class BoundedDeformer final : public Deformer {
   }
 
   /// The result of the proof, and other remarks for the user.
-  std::string note(const Pose& pose, const Found& found) const {
+  std::string note(const Pose& pose, const Found& found, bool draft) const {
     const Certificate& certificate = found.solution.certificate;
     if (!certificate.holds)
       return std::string("Not proved: limit on ") + bound_name(certificate.failed) + " near " +
              point_text(certificate.where);
     std::string text = "No folds" + pin_note(pose, found);
     if (!reference_->note().empty()) text += ". " + reference_->note();
-    if (found.solution.solution.status != ConeSolution::Status::solved)
+    if (!draft && found.solution.solution.status != ConeSolution::Status::solved)
       text += ". A nearer map may exist";
     if (found.flipped_triangles > 0) return coarse_mesh_text(found.flipped_triangles);
     return text;
