@@ -77,7 +77,7 @@ class AnglePoints final : public PointMap {
     // Outside the cage the coordinates are different functions, so the map is continued linearly.
     Points inside;
     for (const Complex& z : points)
-      inside.push_back(is_inside(z) ? z : position_of(cage(), nearest_on(cage(), flat_, z)));
+      inside.push_back(contains(cage(), z) ? z : position_of(cage(), nearest_on(cage(), flat_, z)));
     std::vector<Value> values = values_inside(inside);
     for (size_t i = 0; i < points.size(); ++i)
       values[i].f += values[i].fz * (points[i] - inside[i]);
@@ -86,10 +86,6 @@ class AnglePoints final : public PointMap {
 
  private:
   const Cage& cage() const { return map_.coordinates().cage(); }
-
-  bool is_inside(Complex z) const {
-    return is_straight(cage()) ? encloses(flat_, z) : contains(cage(), z);
-  }
 
   std::vector<Value> values_inside(const Points& points) const {
     IntegrationPaths paths = paths_.without_steps();
