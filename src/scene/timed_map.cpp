@@ -70,9 +70,14 @@ FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,
                        const std::function<void()>& keep_going) const {
   const std::shared_ptr<const Mesh> drawn = drawn_mesh(prepared_->mesh, frame.deformation);
   const auto map = frame.pose ? prepared_->deformer->point_map(*frame.pose) : nullptr;
-  if (!map || map->is_linear_in_triangles()) {
+  if (!map) {
     const VectorXc f = on_mesh(frame).f;
     return {*drawn, {f.begin(), f.end()}};
+  }
+  if (map->is_linear_in_triangles()) {
+    Points f;
+    for (const PointMap::Value& at : map->values_at(drawn->vertices)) f.push_back(at.f);
+    return {*drawn, std::move(f)};
   }
   const auto values_at = [&](std::span<const Complex> points) {
     constexpr size_t kBlock = 256;

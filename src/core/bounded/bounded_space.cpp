@@ -10,8 +10,8 @@ namespace {
 /// A draft may be moved this far toward the center to be proved. Lengths change by half a percent.
 constexpr double kSlightBlend = 3e-3;
 
-/// Tolerances that no eye can tell from tighter ones. Where a draft needs more iterations, the next
-/// one continues.
+/// Tighter tolerances would make no visible difference. Where a draft needs more iterations, the
+/// next one continues.
 ConeSettings draft_settings() {
   ConeSettings settings;
   settings.gap = 3e-3;

@@ -33,8 +33,8 @@ struct CertifiedProgram {
   std::function<LogMap(const VectorXd& x)> map_of;
   /// Adds samples at points of the boundary.
   std::function<void(const Points& points, ConeSystem& system)> append;
-  /// How far a solution may be moved toward the center, 0 to 1, before samples are added. Drafts
-  /// save a second solution that way.
+  /// How far a solution may be moved toward the center, 0 to 1, before samples are added. This
+  /// often saves drafts a second solve.
   double slight_blend = 0;
 
   /// Solves from a feasible start. `cuts` are additional samples that are likely to be needed.

@@ -1,6 +1,5 @@
-// The winding number of a triangle is the sum of what its edges contribute, so the winding numbers
-// of all triangles add up to the boundary's winding number. Edges of triangles are counted where
-// they cross the positive real axis, which needs no angles.
+// The winding number of a triangle is the number of times its edges cross the positive real axis,
+// counted with signs. The winding numbers of all triangles add up to that of the boundary.
 #include "core/maps/argument.h"
 
 #include <algorithm>
@@ -17,17 +16,6 @@ double increment(Complex a, Complex b) {
   return std::atan2(cross(a, b), dot(a, b));
 }
 
-}  // namespace
-
-int winding_around_zero(const VectorXc& values) {
-  double turn = 0;
-  for (Index i = 0; i < values.size(); ++i)
-    turn += increment(values[i], values[(i + 1) % values.size()]);
-  return static_cast<int>(std::lround(turn / (2 * kPi)));
-}
-
-namespace {
-
 /// How often the segment from a to b crosses the positive real axis: 1 upward, -1 downward, or 0.
 int crossing(Complex a, Complex b) {
   const bool up = a.imag() < 0 && b.imag() >= 0, down = a.imag() >= 0 && b.imag() < 0;
@@ -42,6 +30,13 @@ int edge_crossing(const VectorXc& values, int from, int to) {
 }
 
 }  // namespace
+
+int winding_around_zero(const VectorXc& values) {
+  double turn = 0;
+  for (Index i = 0; i < values.size(); ++i)
+    turn += increment(values[i], values[(i + 1) % values.size()]);
+  return static_cast<int>(std::lround(turn / (2 * kPi)));
+}
 
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values) {
   std::vector<Zero> zeros;

@@ -37,23 +37,11 @@ InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Compl
   size_ = box_of(mesh.vertices).diagonal();
   flat_ = flattened(rest_);
   near_ = kNearby * std::max(size_, box_of(controls_of(rest_)).diagonal());
-  box_ = box_of(positions_);
-  const double cell = std::sqrt(std::max(box_.width() * box_.height(), 1e-300) /
-                                static_cast<double>(mesh.triangles.size() + 1));
-  columns_ = static_cast<int>(std::clamp(box_.width() / cell, 1.0, 4096.0));
-  rows_ = static_cast<int>(std::clamp(box_.height() / cell, 1.0, 4096.0));
-  cells_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
+  grid_ = BoxGrid(box_of(positions_), mesh.triangles.size());
+  cells_.resize(grid_.size());
   outer_ = boundary_marks(mesh);
   fill_cells();
   set_up_boundary();
-}
-
-template <class Visit>
-void InverseMap::for_each_cell(const Box& box, Visit visit) {
-  const size_t columns = static_cast<size_t>(columns_), low = cell_of({box.left, box.bottom}),
-               high = cell_of({box.right, box.top});
-  for (size_t r = low / columns; r <= high / columns; ++r)
-    for (size_t c = low % columns; c <= high % columns; ++c) visit(cells_[r * columns + c]);
 }
 
 /// Makes two passes over the triangles. The first counts the triangles in each cell; the second
@@ -107,17 +95,8 @@ void InverseMap::set_up_boundary() {
   }
 }
 
-size_t InverseMap::cell_of(Complex w) const {
-  const auto index = [](double x, double low, double width, int cells) {
-    return static_cast<size_t>(
-        std::clamp((x - low) / std::max(width, 1e-300) * cells, 0.0, cells - 1.0));
-  };
-  return index(w.imag(), box_.bottom, box_.height(), rows_) * columns_ +
-         index(w.real(), box_.left, box_.width(), columns_);
-}
-
 std::optional<int> InverseMap::winding(Complex w) const {
-  if (box_.contains(w) && !cells_[cell_of(w)].on_boundary)
+  if (grid_.box.contains(w) && !cells_[grid_.cell_of(w)].on_boundary)
     return winding_number({boundary_, mesh_.holes}, w);
   return winding_.turns(pieces_, w);
 }
@@ -228,7 +207,7 @@ std::vector<Preimage> InverseMap::newton_from_grid(Complex w, std::optional<int>
     }
   };
   // Next to a fold, preimages of opposite orientation cancel in the count, so all starts are tried.
-  const size_t cell = cell_of(w);
+  const size_t cell = grid_.cell_of(w);
   const bool may_fold = cells_[cell].may_fold;
   const auto is_enough = [&] {
     return !may_fold && (wanted ? oriented(found) == *wanted : !found.empty());
@@ -237,11 +216,12 @@ std::vector<Preimage> InverseMap::newton_from_grid(Complex w, std::optional<int>
   if (is_enough()) return found;
   // w may lie between the images of the mesh's boundary and of the cage, or the triangles may be
   // too coarse here. Try the neighboring cells.
-  const int column = static_cast<int>(cell) % columns_, row = static_cast<int>(cell) / columns_;
+  const int column = static_cast<int>(cell) % grid_.columns,
+            row = static_cast<int>(cell) / grid_.columns;
   const int enough = may_fold ? kAll : wanted ? std::max(std::abs(*wanted), 1) : 1;
-  for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
-    for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
-      try_cell(static_cast<size_t>(r * columns_ + c), kSlack, enough);
+  for (int r = std::max(0, row - 1); r <= std::min(grid_.rows - 1, row + 1); ++r)
+    for (int c = std::max(0, column - 1); c <= std::min(grid_.columns - 1, column + 1); ++c)
+      try_cell(static_cast<size_t>(r * grid_.columns + c), kSlack, enough);
   if (is_enough()) return found;
   std::vector<std::pair<double, int>> near;
   for (const int v : mesh_.boundary) near.push_back({std::norm(positions_[v] - w), v});

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "core/geometry/box_grid.h"
 #include "core/maps/image_winding.h"
 #include "core/mesh/mesh.h"
 
@@ -51,10 +52,11 @@ class InverseMap {
   using Region = std::array<Arc, 3>;
 
   template <class Visit>
-  void for_each_cell(const Box& box, Visit visit);
+  void for_each_cell(const Box& box, Visit visit) {
+    grid_.for_each_cell(box, [&](size_t cell) { visit(cells_[cell]); });
+  }
   void fill_cells();
   void set_up_boundary();
-  size_t cell_of(Complex w) const;
   bool improve(Complex w, Preimage& start) const;
   bool is_inside(Complex z) const;
   bool is_in_inner_triangle(const Preimage& preimage) const;
@@ -81,8 +83,7 @@ class InverseMap {
   FlatCage flat_;
   double size_ = 1;
   std::vector<char> outer_;  ///< the mesh's boundary_marks
-  Box box_;
-  int columns_ = 1, rows_ = 1;
+  BoxGrid grid_;
   std::vector<Cell> cells_;
   std::vector<int> triangles_;  ///< triangle indices, cell by cell
 };

@@ -6,19 +6,13 @@
 
 namespace holomorph {
 
-MeshLocator::MeshLocator(const Mesh& mesh) : mesh_(mesh), box_(box_of(mesh.vertices)) {
-  const double cell = std::sqrt(std::max(box_.width() * box_.height(), 1e-300) /
-                                static_cast<double>(mesh.triangles.size() + 1));
-  columns_ = static_cast<int>(std::clamp(box_.width() / cell, 1.0, 4096.0));
-  rows_ = static_cast<int>(std::clamp(box_.height() / cell, 1.0, 4096.0));
-  first_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_) + 1, 0);
+MeshLocator::MeshLocator(const Mesh& mesh)
+    : mesh_(mesh), grid_(box_of(mesh.vertices), mesh.triangles.size()) {
+  first_.assign(grid_.size() + 1, 0);
   const auto for_each_cell = [&](const Triangle& t, auto visit) {
     Box box;
     for (const int v : t) box.include(mesh_.vertices[v]);
-    const size_t columns = static_cast<size_t>(columns_), low = cell_of({box.left, box.bottom}),
-                 high = cell_of({box.right, box.top});
-    for (size_t r = low / columns; r <= high / columns; ++r)
-      for (size_t c = low % columns; c <= high % columns; ++c) visit(r * columns + c);
+    grid_.for_each_cell(box, visit);
   };
   for (const Triangle& t : mesh.triangles)
     for_each_cell(t, [&](size_t cell) { ++first_[cell + 1]; });
@@ -31,18 +25,9 @@ MeshLocator::MeshLocator(const Mesh& mesh) : mesh_(mesh), box_(box_of(mesh.verti
     });
 }
 
-size_t MeshLocator::cell_of(Complex z) const {
-  const auto index = [](double x, double low, double width, int cells) {
-    return static_cast<size_t>(
-        std::clamp((x - low) / std::max(width, 1e-300) * cells, 0.0, cells - 1.0));
-  };
-  return index(z.imag(), box_.bottom, box_.height(), rows_) * static_cast<size_t>(columns_) +
-         index(z.real(), box_.left, box_.width(), columns_);
-}
-
 std::optional<Location> MeshLocator::at(Complex z) const {
-  if (!box_.contains(z)) return {};
-  const size_t cell = cell_of(z);
+  if (!grid_.box.contains(z)) return {};
+  const size_t cell = grid_.cell_of(z);
   for (int i = first_[cell + 1]; i-- > first_[cell];)
     if (const auto found =
             location_in(mesh_, mesh_.vertices, triangles_[static_cast<size_t>(i)], z))

@@ -1,6 +1,7 @@
 // Finds the triangles of a mesh that contain points, by a grid of cells.
 #pragma once
 
+#include "core/geometry/box_grid.h"
 #include "core/mesh/mesh.h"
 
 namespace holomorph {
@@ -20,11 +21,8 @@ class MeshLocator {
   int vertex_near(Complex z) const;
 
  private:
-  size_t cell_of(Complex z) const;
-
   const Mesh& mesh_;
-  Box box_;
-  int columns_ = 1, rows_ = 1;
+  BoxGrid grid_;
   /// The triangles whose boxes touch each cell, cell by cell, and where each cell's begin.
   std::vector<int> triangles_, first_;
 };

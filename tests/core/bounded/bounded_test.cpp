@@ -171,7 +171,7 @@ TEST_CASE("Bounded: a warm start from another frame's map gets as close as a col
   }
 }
 
-TEST_CASE("Bounded: drafts that stop early are proved, and the next ones arrive") {
+TEST_CASE("Bounded: drafts that stop early are proved, and later ones are solved") {
   for (const known_maps::KnownMap& known : known_maps::all()) {
     Projection from(known, {}, known_maps::Norm::l1), to(known, {}, known_maps::Norm::l1);
     to.reference.log_fz.array() += Complex(-0.5, 3);
