@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/geometry/orientation.h"
 #include "core/maps/arc.h"
+#include "core/maps/triangle_cubic.h"
 
 namespace holomorph {
 namespace {
@@ -278,49 +279,13 @@ class Cubics {
     return static_cast<int>(fine.f.size()) - 1;
   }
 
-  /// The Bezier points of a piece's cubic: at (i, j, k) with i + j + k = 3.
-  class Cubic {
-   public:
-    Complex& operator()(int i, int j) { return points_[static_cast<size_t>(4 * i + j)]; }
-    Complex operator()(int i, int j) const { return points_[static_cast<size_t>(4 * i + j)]; }
-
-    Complex at(double u, double v, double w) const {
-      const Cubic& b = *this;
-      return u * u * (u * b(3, 0) + 3 * v * b(2, 1) + 3 * w * b(2, 0)) +
-             v * v * (v * b(0, 3) + 3 * u * b(1, 2) + 3 * w * b(0, 2)) +
-             w * w * (w * b(0, 0) + 3 * u * b(1, 0) + 3 * v * b(0, 1)) + 6 * u * v * w * b(1, 1);
-    }
-
-    bool is_finite() const { return std::ranges::all_of(points_, holomorph::is_finite); }
-
-    /// The largest second difference in the direction of an edge, or 4 / 9 of the sum over the
-    /// three directions if that is more: linear interpolation misses a quadratic by an eighth of
-    /// the former at the middle of an edge, and by an eighteenth of the sum at the mean of the
-    /// corners.
-    double bend() const {
-      const Cubic& b = *this;
-      double most = 0, sum = 0;
-      for (const auto [i, j] : {std::array{1, 0}, {0, 1}, {0, 0}}) {
-        const double uv = std::abs(b(i + 2, j) - 2.0 * b(i + 1, j + 1) + b(i, j + 2)),
-                     uw = std::abs(b(i + 2, j) - 2.0 * b(i + 1, j) + b(i, j)),
-                     vw = std::abs(b(i, j + 2) - 2.0 * b(i, j + 1) + b(i, j));
-        most = std::max({most, uv, uw, vw});
-        sum = std::max(sum, uv + uw + vw);
-      }
-      return std::max(most, sum * 4 / 9);
-    }
-
-   private:
-    std::array<Complex, 16> points_{};
-  };
-
-  Cubic cubic_of(const Piece& piece) const {
+  TriangleCubic cubic_of(const Piece& piece) const {
     std::array<std::array<Complex, 4>, 3> side;
     for (size_t k = 0; k < 3; ++k) {
       const int from = piece.v[k], to = piece.v[(k + 1) % 3];
       side[k] = cubic_between(vertices_[from], values_[from], vertices_[to], values_[to]);
     }
-    Cubic cubic;
+    TriangleCubic cubic;
     cubic(3, 0) = side[0][0], cubic(2, 1) = side[0][1], cubic(1, 2) = side[0][2];
     cubic(0, 3) = side[1][0], cubic(0, 2) = side[1][1], cubic(0, 1) = side[1][2];
     cubic(0, 0) = side[2][0], cubic(1, 0) = side[2][1], cubic(2, 0) = side[2][2];
@@ -340,7 +305,7 @@ class Cubics {
   }
 
   void divide(const Piece& piece, FineMap& fine) const {
-    const Cubic cubic = cubic_of(piece);
+    const TriangleCubic cubic = cubic_of(piece);
     if (!cubic.is_finite()) return;
     const auto edge = [&](size_t k) -> const Edge& {
       return edges_[static_cast<size_t>(piece.edges[k])];
