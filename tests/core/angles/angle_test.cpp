@@ -157,6 +157,30 @@ TEST_CASE("Hilbert coordinates: fewer than three corners are refused, straight c
             .maxCoeff() <= 5e-4);
 }
 
+TEST_CASE("Hilbert coordinates: sums with fixed weights and real parts equal the coordinates") {
+  for (const Points& polygon : {star(), animal()}) {
+    const HilbertCoordinates coordinates = coordinates_of(polygon, all_of(polygon));
+    const Points points = domain_mesh(polygon_cage(polygon), {200}).vertices;
+    Points inside;
+    for (const Complex& z : points)
+      if (std::ranges::find(polygon, z) == polygon.end()) inside.push_back(z);
+    const MatrixXc all = coordinates.at(inside);
+    CHECK((coordinates.real_parts(inside) - all.real()).cwiseAbs().maxCoeff() <= 1e-10);
+    const VectorXd weights = VectorXd::LinSpaced(all.cols(), -1, 2).array().sin();
+    const VectorXc sum = coordinates.values(inside, coordinates.sum(weights));
+    CHECK((sum - all * weights).cwiseAbs().maxCoeff() <= 1e-10);
+  }
+}
+
+TEST_CASE("Angle maps: the sum of all angles equals the rows times the angles") {
+  const Mesh mesh = domain_mesh(polygon_cage(star()), {200});
+  const AngleMap map = angle_map(mesh, coordinates_of(star(), all_of(star())));
+  const VectorXd theta = VectorXd::LinSpaced(40, -0.3, 0.4);
+  const Points points{{3, 5}, {-20, 11}, {60, -2}};
+  const VectorXc sum = map.coordinates().values(points, map.sum(theta));
+  CHECK((sum - map.rows(points) * theta).cwiseAbs().maxCoeff() <= 1e-10);
+}
+
 TEST_CASE("Angle maps: zero angles give the identity up to translation") {
   const Points polygon = animal();
   const Mesh mesh = domain_mesh(polygon, {3000});

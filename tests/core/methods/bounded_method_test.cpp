@@ -20,9 +20,10 @@ struct Setting {
   std::unique_ptr<Deformer> deformer;
   std::shared_ptr<const Solution> last;
 
-  explicit Setting(const Cage& cage, const Points& pins, const Parameters& parameters = {}) {
+  explicit Setting(const Cage& cage, const Points& pins, const Parameters& parameters = {},
+                   int vertices = 800) {
     rest.cage = cage;
-    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {800}));
+    rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {vertices}));
     rest.samples = rest.mesh->vertices;
     rest.parameters = parameters;
     pose.cage = rest.cage;
@@ -83,6 +84,41 @@ TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle f
         REQUIRE(fz - fzbar >= 0.2);
         REQUIRE(fz + fzbar <= 5);
         REQUIRE(fzbar <= 0.7 * fz);
+      }
+    }
+  }
+}
+
+TEST_CASE("Bounded method: drags of cages with many points, curves or holes are certified") {
+  for (const unsigned seed : seeds_of("large bounded cages", {1})) {
+    std::mt19937 random(seed);
+    Cage ring = shapes::curved_star(12, 3, 0.2, seed + 2);
+    Points hole;
+    for (int i = 0; i < 9; ++i)
+      hole.push_back(Complex(200, 200) + std::polar(25.0, -2 * kPi * i / 9));
+    add_hole(ring, polygon_cage(hole).segments);
+    Points wavy;
+    const double waves = 3 + static_cast<double>(random() % 4),
+                 phase = random_complex(random).real();
+    for (int i = 0; i < 110; ++i) {
+      const double angle = 2 * kPi * i / 110;
+      wavy.push_back(Complex(200, 200) +
+                     std::polar(100 * (1 + 0.2 * std::sin(waves * angle + phase)), angle));
+    }
+    for (const Cage& cage : {polygon_cage(wavy), shapes::curved_star(20, 3, 0.2, seed + 1), ring}) {
+      const Complex middle(200, 200);
+      Points pins;
+      for (int i = 0; i < 5; ++i) pins.push_back(middle + std::polar(60.0, 2 * kPi * i / 5));
+      Setting setting(cage, pins, {}, 6000);
+      const double turn = 3 + random_complex(random).real();
+      for (int frame = 0; frame < 12; ++frame) {
+        const double t = frame / 12.0;
+        setting.pose.pins[0].position = middle + (60 - 100 * t) * std::polar(1.0, turn * t);
+        const SampledMap map = setting.map({false, true});
+        INFO("seed " << seed << ", " << cage.size() << " segments, frame " << frame << ": "
+                     << map.note);
+        CHECK(map.status == SampledMap::Status::certified);
+        CHECK(setting.flipped_triangle_count(map) == 0);
       }
     }
   }
