@@ -126,6 +126,7 @@ class Editor {
     slowest_work_ms_ = std::max(slowest_work_ms_, now_ms() - start);
     draw_canvas();
     draw_panels(input, sizes);
+    menu_was_open_ = has_popup();
     ImGui::Render();
     window_.end_frame();
     moving_ = take_motion();
@@ -230,7 +231,6 @@ class Editor {
       if (focus == KeyFocus::canvas) take_key(key);
     }
     const bool holds = key_focus(window_focus()) == KeyFocus::canvas;
-    menu_was_open_ = has_popup();
     workspace_.display.hide_overlays = holds && is_held("hold.overlays");
     workspace_.display.show_original = holds && is_held("hold.original") && !current_tool().busy();
     window_.set_alt_override(holds && is_held("hold.alt"));

@@ -241,9 +241,9 @@ void Window::add(const Event& event) {
   wake();
 }
 
-/// Passes events to ImGui until the next one would overwrite something that ImGui has not seen yet:
-/// a second change of a button, a move after such a change, or the release of a key that was
-/// pressed in this frame.
+/// Passes events to ImGui until a button changes, which may open or close what later events are
+/// for, or until a key is released that was pressed in this frame, because ImGui must see it
+/// pressed.
 void Window::pump_events() {
   ImGuiIO& io = ImGui::GetIO();
   bool button_changed = false;
@@ -253,10 +253,9 @@ void Window::pump_events() {
     if (kind == Event::Type::button || kind == Event::Type::key) ++taken_;
     events_.pop_front();
   };
-  for (; !events_.empty(); taken()) {
+  for (; !events_.empty() && !button_changed; taken()) {
     const Event& event = events_.front();
     if (event.kind == Event::Type::move || event.kind == Event::Type::button) {
-      if (button_changed) break;
       mouse_x_ = event.x;
       mouse_y_ = event.y;
       if (event.kind == Event::Type::move) continue;
