@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "core/arithmetic.h"
 #include "core/maps/distortion.h"
 
 namespace holomorph {
@@ -58,10 +59,9 @@ Points visible_folds(const Mesh& mesh, const VectorXc& f) {
 
 /// |f_z| - |f_zbar| of the linear map that takes the edges z1 and z2 of a triangle to f1 and f2.
 double stretch(Complex z1, Complex z2, Complex f1, Complex f2) {
-  const Complex twice_area = z1 * std::conj(z2) - z2 * std::conj(z1);
-  const Complex fz = (f1 * std::conj(z2) - f2 * std::conj(z1)) / twice_area,
-                fzbar = (z1 * f2 - z2 * f1) / twice_area;
-  return std::abs(fz) - std::abs(fzbar);
+  const Complex fz = times(f1, std::conj(z2)) - times(f2, std::conj(z1)),
+                fzbar = times(z1, f2) - times(z2, f1);  // both times 2 i area
+  return (std::sqrt(std::norm(fz)) - std::sqrt(std::norm(fzbar))) / (2 * std::abs(cross(z1, z2)));
 }
 
 struct Shrunken {

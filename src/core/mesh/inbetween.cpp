@@ -70,14 +70,16 @@ Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
     }
     fz /= 4 * areas_[triangle];
     fzbar /= 4 * areas_[triangle];
-    const double size = std::max(std::abs(fz), kLeast);
-    double angle = fz == 0.0 ? 0 : std::arg(fz);
+    const double square = std::norm(fz);
+    double angle = square == 0 ? 0 : std::arg(fz);
     if (from >= 0) {
       const double near = shape.logarithm[from].imag();
       angle += 2 * kPi * std::round((near - angle) / (2 * kPi));
     }
-    shape.logarithm[triangle] = {std::log(size), angle};
-    shape.nu[triangle] = std::conj(fzbar) / std::polar(size, angle);
+    const bool vanishes = square < kLeast * kLeast;
+    shape.logarithm[triangle] = {vanishes ? std::log(kLeast) : 0.5 * std::log(square), angle};
+    shape.nu[triangle] =
+        vanishes ? std::conj(fzbar) / std::polar(kLeast, angle) : quotient(std::conj(fzbar), fz);
   }
   if (!before) return shape;
   constexpr double kMostTurns = 1e6;
@@ -132,9 +134,7 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
       right[t[c]] += times(kI * e, fz) + times(-kI * std::conj(e), fzbar);
     }
   }
-  f.resize(right.size());
-  f.real() = laplacian_->solve(right.real().eval());
-  f.imag() = laplacian_->solve(right.imag().eval());
+  f = laplacian_->solve(right);  // one pass over the factor for both parts
   const Location still = least_moving_point(*mesh_, a.f, b.f);
   const auto at = [&](const VectorXc& map) { return still.in(*mesh_, as_span(map)); };
   f.array() += (1 - weight) * at(a.f) + weight * at(b.f) - at(f);
@@ -155,8 +155,8 @@ Location least_moving_point(const Mesh& mesh, const VectorXc& a, const VectorXc&
         return {static_cast<int>(i), {1 - second - third, second, third}};
     }
     for (size_t k = 0; k < 3; ++k)
-      if (std::abs(displacement[k]) < least) {
-        least = std::abs(displacement[k]);
+      if (std::norm(displacement[k]) < least) {
+        least = std::norm(displacement[k]);
         best = {static_cast<int>(i), {}};
         best.weights[k] = 1;
       }

@@ -1,70 +1,57 @@
 // Method `arap`: triangles may rotate freely, and any other change of shape costs energy (after
 // Sorkine, Alexa 2007, with one rotation per triangle).
 //
-// The energy is the sum over all triangles of area (|f_z - R|^2 + |f_zbar|^2), with |R| = 1. Each
-// iteration sets R = f_z / |f_z| and then solves one sparse system for f. Triangles have larger
-// weights in stiff parts of the picture.
+// A map starts from the most conformal one. A draft starts from the map before it.
 #include <Eigen/SparseCholesky>
 
 #include "core/arithmetic.h"
 #include "core/error.h"
 #include "core/maps/mesh_point_map.h"
 #include "core/methods/handles.h"
+#include "core/methods/rigid_energy.h"
 #include "core/methods/rows.h"
 
 namespace holomorph {
 namespace {
 
-constexpr int kMostRounds = 120, kDraftRounds = 6;
-constexpr double kSmallestMove =
-    1e-5;  ///< largest displacement per iteration, relative to the size
-constexpr double kHandleWeight =
-    1e3;  ///< weight of handles, relative to the energy's mean diagonal
+constexpr int kMostRounds = 120, kDraftRounds = 2;
+constexpr Index kManyVertices = 30'000;  ///< drafts of meshes with more have one round
+constexpr double kSmallestMove = 1e-5;   ///< largest displacement per round, relative to the size
 
 class ArapDeformer final : public Deformer {
  public:
-  explicit ArapDeformer(const Rest& rest) : rest_(rest), mesh_(*rest.mesh), handles_(rest_) {
-    const Index n = static_cast<Index>(mesh_.vertices.size());
+  explicit ArapDeformer(const Rest& rest)
+      : rest_(rest),
+        mesh_(*rest.mesh),
+        handles_(rest_),
+        energy_(rest.mesh, rest.stiffness, handles_.locations()) {
     size_ = box_of(mesh_.vertices).diagonal();
-    std::vector<Eigen::Triplet<double>> rigid;
-    std::vector<Eigen::Triplet<Complex>> angles;
-    double diagonal = 0, stiffest = 1;
-    for (const Triangle& t : mesh_.triangles) {
-      const Complex middle =
-          (mesh_.vertices[t[0]] + mesh_.vertices[t[1]] + mesh_.vertices[t[2]]) / 3.0;
-      stiffness_.push_back(std::pow(10, stiffness_level(rest.stiffness, middle)));
-      stiffest = std::max(stiffest, stiffness_.back());
+    const Index n = vertices();
+    std::vector<Eigen::Triplet<Complex>> entries;
+    for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const Triangle& t = mesh_.triangles[i];
+      const double area = area_of(t) / energy_.stiffness(i);
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
-          const Complex ea = opposite(t, a), eb = opposite(t, b);
-          const double area = area_of(t) / stiffness_.back();
-          const double weight = dot(ea, eb) / (8 * area);
-          rigid.push_back({t[a], t[b], weight});
-          if (a == b) diagonal += weight / stiffness_.back();
           // The product of the conjugated coefficient of a in f_zbar and the coefficient of b.
           // Adding a small part of the rigid energy makes the matrix definite.
           constexpr double kRigidPart = 1e-3;
-          angles.push_back({t[a], t[b], std::conj(ea) * eb / (16 * area) + kRigidPart * weight});
+          const Complex ea = opposite(t, a), eb = opposite(t, b);
+          entries.push_back(
+              {t[a], t[b],
+               std::conj(ea) * eb / (16 * area) + kRigidPart * dot(ea, eb) / (8 * area)});
         }
     }
-    handle_weight_ = kHandleWeight * stiffest * diagonal / static_cast<double>(n);
     for (const Location& at : handles_.locations())
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) {
+      for (size_t a = 0; a < 3; ++a)
+        for (size_t b = 0; b < 3; ++b) {
           const Triangle& t = mesh_.triangles[static_cast<size_t>(at.triangle)];
-          const double weight = handle_weight_ * at.weights[static_cast<size_t>(a)] *
-                                at.weights[static_cast<size_t>(b)];
-          rigid.push_back({t[a], t[b], weight});
-          angles.push_back({t[a], t[b], weight});
+          entries.push_back({t[a], t[b], energy_.handle_weight() * at.weights[a] * at.weights[b]});
         }
-    Eigen::SparseMatrix<double> matrix(n, n);
-    matrix.setFromTriplets(rigid.begin(), rigid.end());
-    rigid_.compute(matrix);
-    Eigen::SparseMatrix<Complex> conformal(n, n);
-    conformal.setFromTriplets(angles.begin(), angles.end());
-    conformal_.compute(conformal);
-    check(rigid_.info() == Eigen::Success && conformal_.info() == Eigen::Success,
-          "arap: the energy is definite");
+    Eigen::SparseMatrix<Complex> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    conformal_.compute(matrix);
+    check(conformal_.info() == Eigen::Success, "arap: the conformal energy is definite");
     if (rest_.samples == mesh_.vertices) return;
     for (const Complex& z : rest_.samples) places_.push_back(locate_near(mesh_, z));
   }
@@ -107,9 +94,8 @@ class ArapDeformer final : public Deformer {
     }
     const bool continues = options.draft && before && before->f.size() == vertices();
     found.f = continues ? before->f : start(targets);
-    const int most = options.draft ? kDraftRounds : kMostRounds;
-    out.iterations = minimize(targets, most, options.stop, found.f);
-    if (out.iterations == most) out.status = SampledMap::Status::iterating;
+    out.iterations = minimize(targets, options, found.f);
+    if (out.iterations == most_rounds(options)) out.status = SampledMap::Status::iterating;
     return found;
   }
 
@@ -134,45 +120,24 @@ class ArapDeformer final : public Deformer {
     return {d.fz * over, d.fzbar * over};
   }
 
-  void add_targets(const Points& targets, VectorXc& right) const {
-    for (size_t h = 0; h < targets.size(); ++h) {
-      const Location& at = handles_.locations()[h];
-      for (int a = 0; a < 3; ++a)
-        right[mesh_.triangles[static_cast<size_t>(at.triangle)][a]] +=
-            handle_weight_ * at.weights[static_cast<size_t>(a)] * targets[h];
-    }
-  }
-
   /// The most conformal map, found by one linear solve.
-  VectorXc start(const Points& targets) const {
-    VectorXc right = VectorXc::Zero(vertices());
-    add_targets(targets, right);
-    return conformal_.solve(right);
+  VectorXc start(const Points& targets) const { return conformal_.solve(energy_.pull(targets)); }
+
+  int most_rounds(const EvalOptions& options) const {
+    if (!options.draft) return kMostRounds;
+    return vertices() > kManyVertices ? 1 : kDraftRounds;
   }
 
-  int minimize(const Points& targets, int most, const std::stop_token& stop, VectorXc& f) const {
-    int iteration = 0;
-    for (double moved = 1; iteration < most && moved > kSmallestMove * size_; ++iteration) {
-      throw_if_stopped(stop);
-      VectorXc right = VectorXc::Zero(f.size());
-      for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
-        const Triangle& t = mesh_.triangles[i];
-        const Complex fz = derivatives_of(t, f).fz;
-        const double size = std::abs(fz);
-        const Complex turn = 0.25 * stiffness_[i] * (size > 0 ? fz / size : Complex(1));
-        for (int a = 0; a < 3; ++a) right[t[a]] += times(kI * opposite(t, a), turn);
-      }
-      add_targets(targets, right);
-      Eigen::MatrixX2d parts(f.size(), 2);  // one pass over the factor for both
-      parts << right.real(), right.imag();
-      parts = rigid_.solve(parts).eval();
-      VectorXc next(f.size());
-      next.real() = parts.col(0);
-      next.imag() = parts.col(1);
-      moved = (next - f).cwiseAbs().maxCoeff();
-      f = std::move(next);
+  int minimize(const Points& targets, const EvalOptions& options, VectorXc& f) const {
+    int round = 0;
+    for (double moved = HUGE_VAL; round < most_rounds(options) && moved > kSmallestMove * size_;
+         ++round) {
+      throw_if_stopped(options.stop);
+      const VectorXc before = f;
+      energy_.cycle(targets, f);
+      moved = (f - before).cwiseAbs().maxCoeff();
     }
-    return iteration;
+    return round;
   }
 
   void answer(const Found& found, SampledMap& out, EvalOptions options) const {
@@ -223,10 +188,9 @@ class ArapDeformer final : public Deformer {
   Rest rest_;
   const Mesh& mesh_;
   HandlePoints handles_;
-  std::vector<Location> places_;   ///< of the samples, if they are not the vertices
-  std::vector<double> stiffness_;  ///< one per triangle
-  double size_ = 1, handle_weight_ = 1;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid_;
+  std::vector<Location> places_;  ///< of the samples, if they are not the vertices
+  double size_ = 1;
+  RigidEnergy energy_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> conformal_;
 };
 

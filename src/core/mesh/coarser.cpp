@@ -1,0 +1,154 @@
+// Collapses the shortest edges first. A collapse moves one end of an edge to the other, which
+// removes the triangles beside the edge.
+#include "core/mesh/coarser.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace holomorph {
+namespace {
+
+/// Twice the area of a triangle over the square of its longest side: 0.87 if it is equilateral, and
+/// negative if it is clockwise.
+double roundness(Complex a, Complex b, Complex c) {
+  return cross(b - a, c - a) / std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
+}
+
+class Collapse {
+ public:
+  explicit Collapse(const Mesh& mesh)
+      : mesh_(mesh),
+        on_boundary_(boundary_marks(mesh)),
+        triangles_(mesh.triangles),
+        around_(mesh.vertices.size()),
+        left_(mesh.vertices.size()) {
+    for (size_t i = 0; i < triangles_.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        around(triangles_[i][k]).push_back(static_cast<int>(i));
+        propose(triangles_[i][k], triangles_[i][(k + 1) % 3]);
+      }
+  }
+
+  void until(size_t count) {
+    while (left_ > count && !shortest_.empty()) {
+      const auto [length, a, b] = shortest_.top();
+      shortest_.pop();
+      if (!collapse(a, b)) collapse(b, a);
+    }
+  }
+
+  CoarserMesh result() const {
+    CoarserMesh out;
+    Mesh& mesh = out.mesh;
+    std::vector<int> number(around_.size(), -1);
+    for (size_t v = 0; v < around_.size(); ++v) {
+      if (around_[v].empty()) continue;
+      number[v] = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.push_back(mesh_.vertices[v]);
+      out.kept.push_back(static_cast<int>(v));
+    }
+    for (Triangle t : triangles_) {
+      if (is_removed(t)) continue;
+      for (int& v : t) v = number[static_cast<size_t>(v)];
+      mesh.triangles.push_back(t);
+    }
+    const Loops loops = mesh_.boundary_loops();
+    for (Index loop = 0; loop < loops.count(); ++loop) {
+      if (loop > 0) mesh.holes.push_back(static_cast<Index>(mesh.boundary.size()));
+      for (Index i = loops.first(loop); i < loops.end(loop); ++i)
+        if (const int v = number[static_cast<size_t>(mesh_.boundary[static_cast<size_t>(i)])];
+            v >= 0)
+          mesh.boundary.push_back(v);
+    }
+    return out;
+  }
+
+ private:
+  static bool has(const Triangle& t, int v) { return std::ranges::find(t, v) != t.end(); }
+  static bool is_removed(const Triangle& t) { return t[0] < 0; }
+  std::vector<int>& around(int v) { return around_[static_cast<size_t>(v)]; }
+  Triangle& triangle(int i) { return triangles_[static_cast<size_t>(i)]; }
+  Complex at(int v) const { return mesh_.vertices[static_cast<size_t>(v)]; }
+  bool on_boundary(int v) const { return on_boundary_[static_cast<size_t>(v)] != 0; }
+
+  void propose(int a, int b) { shortest_.emplace(std::norm(at(a) - at(b)), a, b); }
+
+  std::vector<int> neighbors(int v) {
+    std::vector<int> found;
+    for (const int i : around(v))
+      for (const int w : triangle(i))
+        if (w != v) found.push_back(w);
+    std::ranges::sort(found);
+    found.erase(std::ranges::unique(found).begin(), found.end());
+    return found;
+  }
+
+  /// Whether the triangles around `from` stay counter-clockwise and round enough if it moves.
+  bool keeps_shapes(int from, int to) {
+    constexpr double kRoundEnough = 0.15;
+    return std::ranges::all_of(around(from), [&](int i) {
+      const Triangle& t = triangle(i);
+      if (has(t, to)) return true;
+      const auto moved = [&](int k) { return at(t[k] == from ? to : t[k]); };
+      return roundness(moved(0), moved(1), moved(2)) > kRoundEnough;
+    });
+  }
+
+  /// Whether the boundary keeps its shape if `from` moves along it.
+  bool keeps_boundary(int from, int to) {
+    constexpr double kStraight = 0.1;
+    for (const int w : neighbors(from)) {
+      if (w == to || !on_boundary(w) ||
+          std::ranges::count_if(around(from), [&](int i) { return has(triangle(i), w); }) != 1)
+        continue;
+      if (std::abs(cross(at(from) - at(w), at(to) - at(w))) > kStraight * std::norm(at(to) - at(w)))
+        return false;
+    }
+    return true;
+  }
+
+  /// Moves `from` to its neighbor `to`, if that is possible.
+  bool collapse(int from, int to) {
+    const auto beside =
+        std::ranges::count_if(around(from), [&](int i) { return has(triangle(i), to); });
+    if (beside == 0 || (on_boundary(from) && (!on_boundary(to) || beside != 1))) return false;
+    // If the ends have another common neighbor, the mesh would be pinched or a hole closed.
+    std::vector<int> shared;
+    std::ranges::set_intersection(neighbors(from), neighbors(to), std::back_inserter(shared));
+    if (std::ssize(shared) != beside || !keeps_shapes(from, to)) return false;
+    if (on_boundary(from) && !keeps_boundary(from, to)) return false;
+    for (const int i : std::exchange(around(from), {})) {
+      Triangle& t = triangle(i);
+      if (has(t, to)) {
+        for (const int v : t) std::erase(around(v), i);
+        t = {-1, -1, -1};
+      } else {
+        std::ranges::replace(t, from, to);
+        around(to).push_back(i);
+      }
+    }
+    --left_;
+    for (const int w : neighbors(to)) propose(to, w);
+    return true;
+  }
+
+  const Mesh& mesh_;
+  std::vector<char> on_boundary_;
+  std::vector<Triangle> triangles_;           ///< removed ones have negative corners
+  std::vector<std::vector<int>> around_;      ///< the triangles around each vertex
+  size_t left_;                               ///< vertices that are left
+  using Edge = std::tuple<double, int, int>;  // squared length and ends
+  std::priority_queue<Edge, std::vector<Edge>, std::greater<>> shortest_;
+};
+
+}  // namespace
+
+CoarserMesh coarser_mesh(const Mesh& mesh, size_t count) {
+  Collapse collapse(mesh);
+  collapse.until(std::max<size_t>(count, 3));
+  return collapse.result();
+}
+
+}  // namespace holomorph

@@ -1,0 +1,79 @@
+// Coarser meshes cover the same domain, whatever the cage.
+#include "core/mesh/coarser.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "core/mesh/mesher.h"
+#include "support/seeds.h"
+#include "support/shapes.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// Counter-clockwise triangles, Euler's formula, closed boundaries, and nearly the same area.
+void check_coarser(const Mesh& mesh, size_t count) {
+  const auto [coarse, kept] = coarser_mesh(mesh, count);
+  CAPTURE(mesh.vertices.size(), count, coarse.vertices.size());
+  CHECK(coarse.vertices.size() >= count);
+  REQUIRE(kept.size() == coarse.vertices.size());
+  for (size_t v = 0; v < kept.size(); ++v)
+    CHECK(coarse.vertices[v] == mesh.vertices[static_cast<size_t>(kept[v])]);
+  std::set<std::pair<int, int>> sides;
+  const auto area_of = [](const Mesh& of, const Triangle& t) {
+    return 0.5 *
+           cross(of.vertices[static_cast<size_t>(t[1])] - of.vertices[static_cast<size_t>(t[0])],
+                 of.vertices[static_cast<size_t>(t[2])] - of.vertices[static_cast<size_t>(t[0])]);
+  };
+  double area = 0, whole = 0;
+  for (const Triangle& t : mesh.triangles) whole += area_of(mesh, t);
+  for (const Triangle& t : coarse.triangles) {
+    CHECK(area_of(coarse, t) > 0);
+    area += area_of(coarse, t);
+    for (int k = 0; k < 3; ++k) CHECK(sides.insert({t[k], t[(k + 1) % 3]}).second);
+  }
+  CHECK(area == Approx(whole).epsilon(0.1));
+  size_t open = 0;  // sides with a triangle on their left only
+  for (const auto& [a, b] : sides) open += !sides.contains({b, a});
+  CHECK(open == coarse.boundary.size());
+  const Loops loops = coarse.boundary_loops();
+  REQUIRE(loops.count() == mesh.boundary_loops().count());
+  for (Index i = 0; i < static_cast<Index>(coarse.boundary.size()); ++i)
+    CHECK(sides.contains({coarse.boundary[static_cast<size_t>(i)],
+                          coarse.boundary[static_cast<size_t>(loops.next(i))]}));
+  const auto edges = std::ssize(sides) - (std::ssize(sides) - static_cast<Index>(open)) / 2;
+  CHECK(std::ssize(coarse.vertices) - edges + std::ssize(coarse.triangles) == 2 - loops.count());
+}
+
+}  // namespace
+
+TEST_CASE("A coarser mesh covers the same domain with fewer triangles") {
+  for (const unsigned seed : seeds_of("coarser meshes", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    const size_t vertices = 300 + random() % 3000;
+    for (const Points& outline :
+         {shapes::rectangle(600, 20), shapes::l_shape(), shapes::comb(6),
+          shapes::star(5 + static_cast<int>(random() % 60), 0.5, random())}) {
+      const Mesh mesh = domain_mesh(outline, {static_cast<int>(vertices)});
+      check_coarser(mesh, mesh.vertices.size() / 8);
+      check_coarser(mesh, 3);
+    }
+    Cage with_holes = polygon_cage(shapes::rectangle(300, 200));
+    for (const Complex corner : {Complex(40, 40), Complex(180, 90)}) {
+      with_holes.holes.push_back(with_holes.size());
+      for (const Complex by : {Complex(0, 0), Complex(0, 60), Complex(50, 60), Complex(50, 0)})
+        with_holes.segments.push_back({corner + by});
+    }
+    check_coarser(domain_mesh(with_holes, {static_cast<int>(vertices)}), 60);
+    check_coarser(domain_mesh(with_holes, {static_cast<int>(vertices)}), 3);
+  }
+}
+
+TEST_CASE("A coarser mesh has as few vertices as asked for, unless the outline needs more") {
+  const Mesh mesh = domain_mesh(shapes::l_shape(), {4000});
+  CHECK(coarser_mesh(mesh, 500).kept.size() == 500);
+  CHECK(coarser_mesh(mesh, 60).kept.size() < 90);
+  CHECK(coarser_mesh(mesh, mesh.vertices.size() + 1).kept.size() == mesh.vertices.size());
+}
