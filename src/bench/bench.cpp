@@ -188,7 +188,7 @@ double every_pixel_ms(const std::function<void(const Scene&, const Image&)>& wor
   for (const Complex z : {Complex(600, 900), Complex(1000, 1500), Complex(1300, 800)})
     deformation.pins.push_back({z, z + Complex(60, 40), {}, {}});
   deformation.strokes.push_back(
-      {{{700, 700}, {1000, 750}, {1300, 700}}, {{700, 740}, {1000, 730}, {1300, 760}}});
+      {{{700, 700}, {1000, 750}, {1300, 700}}, {{700, 740}, {1000, 730}, {1300, 760}}, {}});
   double slowest = 0;
   for (const Method& method : methods()) {
     deformation.method = method.id;
@@ -274,7 +274,7 @@ double prepare_method_ms(const char* method, int points, int runs) {
   for (const Complex z : {Complex(400, 450), Complex(500, 650), Complex(600, 400)})
     deformation.pins.push_back({z, z, {}, {}});
   const Points stroke{{400, 500}, {500, 520}, {600, 500}};
-  deformation.strokes.push_back({stroke, stroke});
+  deformation.strokes.push_back({stroke, stroke, {}});
   return median_ms(runs,
                    [&] { prepared_map(deformation, Precision::single, {7500}, before.get()); });
 }
@@ -515,6 +515,8 @@ const Entry kEntries[] = {
      [](int) { return rigid_drag(8000).median_ms; }},
     {"rigid: the same, energy of a frame above the converged one, at most", "%", 1, 1,
      [](int) { return rigid_drag(8000).above_percent; }},
+    {"rigid: the same, frames with more than 1 % above it", "%", 0, 1,
+     [](int) { return rigid_drag(8000).behind_percent; }},
     {"rigid: the same, 80k mesh vertices, median", "ms", 33, 1,
      [](int) { return rigid_drag(72000).median_ms; }},
     {"rigid: the same, energy above the converged one", "%", 0, 1,
@@ -541,6 +543,14 @@ const Entry kEntries[] = {
      [](int) { return inbetween_loss_percent(false); }},
     {"keyframes: the same, positions blended linearly (for comparison)", "%", 0, 1,
      [](int) { return inbetween_loss_percent(true); }},
+    {"drag: memory pages prepared in a frame, method with most", "", 0, 1,
+     [](int) { return drag_page_faults(); }},
+    {"layers: drag of a pin, one layer of 100 keyframes, without drawing", "ms", 0, 1,
+     [](int) { return layered_drag_ms(1); }},
+    {"layers: the same, 16 layers, relative to one", "times", 1.1, 1,
+     [](int) { return layered_drag_ms(16) / layered_drag_ms(1); }},
+    {"layers: scrubbing, 16 layers of 100 keyframes, without drawing", "ms", 33, 1,
+     [](int) { return layered_scrub_ms(16); }, "layers", [](int) { return layered_scrub_ms(32); }},
     {"export: 2000 x 2000, 32-vertex cage, pose to pixels, two cores", "ms", 22, 15,
      [](int runs) { return export_ms(2000, 32, runs, 2); }},
     {"export: the same, one core", "ms", 0, 9,

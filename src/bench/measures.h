@@ -39,6 +39,16 @@ double playback_ms(int runs);
 /// `linear_blend`, positions are blended linearly.
 double inbetween_loss_percent(bool linear_blend);
 
+/// The median time of a frame in which a pin of one layer is dragged, and of one in which the
+/// displayed time moves on by half of the time between two keyframes. Each layer has three pins and
+/// 100 keyframes. Only the maps of all layers are updated, and nothing is drawn.
+double layered_drag_ms(int layers);
+double layered_scrub_ms(int layers);
+
+/// The memory pages that the system prepares in a frame of a drag, on average over 100 frames, for
+/// the method with most of them.
+double drag_page_faults();
+
 /// Figures for a drag of 300 frames of a map without folds that follows a method, with 5 pins and
 /// 5k mesh vertices: the frame times, and the number of frames that were not certified.
 struct BoundedDrag {
@@ -57,10 +67,10 @@ struct PuppetFigures {
 PuppetFigures puppet_drag(int vertices);
 
 /// Figures for a drag of 60 frames of As rigid as possible with 10 pins, for a mesh of about this
-/// many vertices: the median time of a frame, and by how much a frame's energy is above the
-/// converged one, at most.
+/// many vertices: the median time of a frame, by how much a frame's energy is above the converged
+/// one, at most, and the percentage of frames for which this is more than 1 %.
 struct RigidFigures {
-  double median_ms = 0, above_percent = 0;
+  double median_ms = 0, above_percent = 0, behind_percent = 0;
 };
 RigidFigures rigid_drag(int vertices);
 

@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "core/error.h"
 #include "scene/budget.h"
+#include "system/memory.h"
 #include "system/text.h"
 
 using namespace holomorph;
@@ -322,6 +323,7 @@ int fail(const std::string& what, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   std::signal(SIGPIPE, SIG_IGN);  // makes writing to a pipe without a reader an ordinary error
   try {
     return run_program(argc, argv);

@@ -2,6 +2,9 @@
 #include "scene/layer_maps.h"
 
 #include <algorithm>
+#include <atomic>
+
+#include "system/parallel.h"
 
 namespace holomorph {
 
@@ -29,15 +32,27 @@ bool LayerMaps::update_others(const Scene& scene, const Moment& moment) {
     if (gone) {
       entry->second->clear();
       spare_.push_back(std::move(entry->second));
+      settled_.erase(entry->first);
     }
     entry = gone ? maps_.erase(entry) : std::next(entry);
   }
-  bool changed = false;
+  settled_.erase(scene.layer().id);  // it is updated elsewhere
+  std::vector<SharedLayer> open;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
-    const Layer& layer = *scene.layers[i];
-    if (i != scene.edited && (layer.visible || carries_others(scene, i)))
-      changed = of(layer.id).update(layer.deformation, {}, moment) || changed;
+    const SharedLayer& layer = scene.layers[i];
+    if (i == scene.edited || !(layer->visible || carries_others(scene, i))) continue;
+    of(layer->id);
+    const auto settled = settled_.find(layer->id);
+    if (settled == settled_.end() || settled->second != std::pair(layer, moment))
+      open.push_back(layer);
   }
+  std::atomic<bool> changed = false;
+  parallel_for(static_cast<int>(open.size()), [&](int i) {
+    const Layer& layer = *open[static_cast<size_t>(i)];
+    if (maps_.at(layer.id)->update(layer.deformation, {}, moment)) changed = true;
+  });
+  for (const SharedLayer& layer : open)
+    if (!of(layer->id).busy()) settled_[layer->id] = {layer, moment};
   return changed;
 }
 
@@ -80,6 +95,7 @@ void LayerMaps::clear() {
     spare_.push_back(std::move(map));
   }
   maps_.clear();
+  settled_.clear();
   anchors_.clear();
 }
 

@@ -42,6 +42,9 @@ class LayerMaps {
   // Unused maps are kept for later layers, because destroying a map waits for its worker.
   std::map<int, std::unique_ptr<LiveMap>> maps_;
   std::vector<std::unique_ptr<LiveMap>> spare_;
+  /// For each layer whose map is final, what the map belongs to. Such maps are not updated again,
+  /// so that a drag in one layer costs the same with many layers.
+  std::map<int, std::pair<SharedLayer, Moment>> settled_;
   LiveMap none_;
   /// The anchors of the attachments that were displayed last, because placements are needed often.
   mutable std::vector<std::pair<Attachment, Anchor>> anchors_;

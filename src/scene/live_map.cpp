@@ -72,6 +72,11 @@ void LiveMap::request(MapRequest request) {
   number_ = worker_.request(std::move(request));
 }
 
+void LiveMap::display(PosedMap posed) {
+  posed_ = std::move(posed);
+  ++revision_;
+}
+
 void LiveMap::adopt(MapAnswer answer) {
   if (answer.number == number_ && answer.complete) busy_ = false;
   error_ = std::move(answer.error);
@@ -79,7 +84,7 @@ void LiveMap::adopt(MapAnswer answer) {
   if (failed_) return;
   if (answer.prepared != prepared_) {
     prepared_ = std::move(answer.prepared);
-    posed_ = {};
+    display({});
     timed_.reset();
     motion_.clear();
     ++preparation_;
@@ -89,7 +94,7 @@ void LiveMap::adopt(MapAnswer answer) {
     key_milliseconds_ = answer.key_milliseconds;
   }
   if (!answer.posed) return;
-  posed_ = std::move(*answer.posed);
+  display(std::move(*answer.posed));
   posed_moment_ = {};
   timed_.reset();
 }
@@ -112,16 +117,17 @@ bool LiveMap::update(const Deformation& deformation, EvalOptions options, const 
   const bool timed = plays(deformation);
   if (timed && !busy_ && pose_at_time(deformation, options)) return true;
   if (timed && motion_.plays()) return changed;
-  if (displays(deformation, options))
-    posed_.deformation = deformation;
-  else if (!busy_ && !iterates(deformation))
+  if (displays(deformation, options)) {
+    if (posed_.deformation != deformation) posed_.deformation = deformation;  // of other keyframes
+  } else if (!busy_ && !iterates(deformation)) {
     return pose(deformation, options) || changed;
+  }
   return changed;
 }
 
 bool LiveMap::pose(const Deformation& deformation, EvalOptions options) {
   try {
-    posed_ = posed_map(*prepared_, deformation, options, &posed_);
+    display(posed_map(*prepared_, deformation, options, &posed_));
   } catch (const Error& error) {
     error_ = error;
     return false;
@@ -144,7 +150,7 @@ bool LiveMap::pose_at_time(const Deformation& deformation, EvalOptions options) 
     SampledMap map = motion_.sampled_at(*moment_.time, options.derivatives);
     if (motion_.error()) map.note = "does not play: " + std::string(motion_.error()->what());
     timed_ = motion_.deformation_at(deformation, *moment_.time, map.f);
-    posed_ = examined_map(*prepared_, deformation, options, std::move(map), &posed_);
+    display(examined_map(*prepared_, deformation, options, std::move(map), &posed_));
   } catch (const Error& error) {
     error_ = error;
     return false;
@@ -192,7 +198,7 @@ void LiveMap::clear() {
   if (!requested_) return;
   worker_.discard();
   prepared_.reset();
-  posed_ = {};
+  display({});
   posed_moment_ = {};
   timed_.reset();
   motion_.clear();

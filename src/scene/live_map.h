@@ -65,6 +65,8 @@ class LiveMap {
   double pose_milliseconds() const { return posed_.milliseconds; }
   /// A counter that increases by one whenever a newly prepared map is adopted.
   unsigned preparation() const { return preparation_; }
+  /// A counter that increases whenever the displayed map changes.
+  unsigned revision() const { return revision_; }
 
  private:
   bool plays(const Deformation& deformation) const;
@@ -72,6 +74,7 @@ class LiveMap {
   bool needs_keys(const Deformation& deformation) const;
   bool needs_request(const Deformation& deformation, const EvalOptions& options) const;
   void request(MapRequest request);
+  void display(PosedMap posed);
   void adopt(MapAnswer answer);
   bool pose(const Deformation& deformation, EvalOptions options);
   bool pose_at_time(const Deformation& deformation, EvalOptions options);
@@ -86,7 +89,7 @@ class LiveMap {
   unsigned number_ = 0;                  ///< its number
   bool busy_ = false, failed_ = false;
   double key_milliseconds_ = 0;  ///< time to compute the map at a keyframe
-  unsigned preparation_ = 0;
+  unsigned preparation_ = 0, revision_ = 0;
   MapWorker worker_;
 };
 

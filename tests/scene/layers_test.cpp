@@ -3,6 +3,7 @@
 #include "scene/layers.h"
 
 #include <catch2/catch.hpp>
+#include <thread>
 
 #include "core/error.h"
 #include "scene/document.h"
@@ -14,6 +15,7 @@
 #include "support/complaint.h"
 #include "support/folder.h"
 #include "support/scenes.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 #include "system/new_file.h"
 
@@ -239,6 +241,59 @@ TEST_CASE("Each layer keeps its map while layers are selected and moved") {
   now.update(scene.deformation(), {});
   CHECK(now.preparation() == preparation);
   CHECK_FALSE(now.busy());
+}
+
+TEST_CASE("Maps of layers that are not edited follow every change, and only changes") {
+  const auto settle = [](LayerMaps& maps, const Scene& scene, const Moment& moment) {
+    const auto busy = [&](const SharedLayer& each) { return maps.of(each->id).busy(); };
+    do {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      maps.update_others(scene, moment);
+      maps.of(scene.layer().id).update(scene.deformation(), {}, moment);
+    } while (std::ranges::any_of(scene.layers, busy));
+  };
+  for (const unsigned seed : seeds_of("maps of layers", {1, 2})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    Scene scene = stack();
+    for (size_t i = 0; i < scene.layers.size(); ++i) {
+      scene = with_edited(scene, i);
+      change(scene, [&](Deformation& deformation) {
+        deformation = with_key(std::move(deformation), 0);
+        deformation.pose.segments[0][0] += 9.0 * random_complex(random);
+        deformation = with_key(std::move(deformation), 1);
+      });
+    }
+    LayerMaps maps;
+    Moment moment;
+    for (int step = 0; step < 12; ++step) {
+      const size_t layer = random() % scene.layers.size();
+      if (const unsigned kind = random() % 4; kind == 0)
+        moment = {0.001 * static_cast<double>(random() % 1000)};
+      else if (kind == 1)
+        moment = {};
+      else if (kind == 2)
+        scene = with_edited(scene, layer);
+      else
+        change(scene, [&](Deformation& deformation) {
+          deformation.pose.segments[1][0] += 5.0 * random_complex(random);
+        });
+      settle(maps, scene, moment);
+      LayerMaps fresh;
+      settle(fresh, scene, moment);
+      for (const SharedLayer& each : scene.layers) {
+        const VectorXc &f = maps.of(each->id).map().f, &expected = fresh.of(each->id).map().f;
+        REQUIRE(f.size() == expected.size());
+        CHECK((f - expected).cwiseAbs().maxCoeff() < 1e-9);
+      }
+      std::vector<unsigned> revisions;
+      for (const SharedLayer& each : scene.layers)
+        revisions.push_back(maps.of(each->id).revision());
+      CHECK_FALSE(maps.update_others(scene, moment));
+      for (size_t i = 0; i < revisions.size(); ++i)
+        CHECK(maps.of(scene.layers[i]->id).revision() == revisions[i]);
+    }
+  }
 }
 
 TEST_CASE("A document finds the pictures of all layers wherever it is saved") {

@@ -1,5 +1,5 @@
-// To upload only changed data, compares the preparation's number and the picture's address with
-// their values at the last upload.
+// To upload only changed data, compares the map's counters and the picture's address with their
+// values at the last upload.
 #include "app/canvas/layer_painter.h"
 
 #include <utility>
@@ -45,12 +45,13 @@ bool LayerPainter::allocate_texture() {
   return uploading_ = true;
 }
 
-void LayerPainter::update_fringe(const LiveMap& map) {
+void LayerPainter::update_fringe(const LiveMap& map, bool moved) {
   if (fringe_answer_) {
     const std::lock_guard lock(fringe_answer_->mutex);
     if (fringe_answer_->fringe) {
       fringe_ = *std::exchange(fringe_answer_->fringe, std::nullopt);
       renderer_.set_fringe(fringe_ ? &fringe_->mesh : nullptr);
+      moved = true;
     }
   }
   const std::pair sought{map.prepared()->mesh, picture_};
@@ -76,7 +77,7 @@ void LayerPainter::update_fringe(const LiveMap& map) {
         },
         wake_);
   }
-  if (fringe_) renderer_.set_fringe_positions(fringe_->positions(as_span(map.map().f)));
+  if (fringe_ && moved) renderer_.set_fringe_positions(fringe_->positions(as_span(map.map().f)));
 }
 
 void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_range) {
@@ -89,16 +90,24 @@ void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_ran
 }
 
 void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_range) {
+  const Uploaded wanted{&map, map.revision(), view, automatic_range};
+  const bool changed = uploaded_ != wanted;
+  if (changed) upload(map, view, automatic_range);
+  uploaded_ = wanted;
+  if (map.has_map()) update_fringe(map, changed);
+}
+
+void LayerPainter::upload(const LiveMap& map, View view, bool automatic_range) {
   update_heat(map, view, automatic_range);
   if (!map.has_map()) {
     renderer_.set_mesh(nullptr);
-    uploaded_ = 0;
+    preparation_ = 0;
     fringed_ = {};
     return;
   }
   const bool timed = map.timed().has_value();
-  if (uploaded_ != map.preparation() || timed_ != timed) {
-    if (uploaded_ != map.preparation()) {
+  if (preparation_ != map.preparation() || timed_ != timed) {
+    if (preparation_ != map.preparation()) {
       renderer_.set_mesh((mesh_ = map.drawn()).get());
       if (fringe_) renderer_.set_fringe(&fringe_->mesh);
     }
@@ -106,7 +115,7 @@ void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_rang
     // and maps interpolated between keyframes are not such sums.
     by_operator_ = renderer_.set_operator(
         is_software_driver() || timed ? nullptr : map.prepared()->deformer->operator_matrix());
-    uploaded_ = map.preparation();
+    preparation_ = map.preparation();
     timed_ = timed;
   }
   if (mesh_ != map.drawn()) {  // depths have changed the order of the triangles
@@ -115,7 +124,6 @@ void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_rang
   if (by_operator_ && map.posed())
     renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
   renderer_.set_positions(as_span(map.map().f));
-  update_fringe(map);
   if (heat_values_.size() != map.map().f.size()) return;
   Eigen::VectorXf shades(heat_values_.size());
   for (Index i = 0; i < shades.size(); ++i)

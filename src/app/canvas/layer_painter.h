@@ -27,8 +27,8 @@ class LayerPainter {
   bool allocate_texture();
   /// Whether the next frame will show more of the picture.
   bool is_uploading() const { return uploading_; }
-  /// Uploads the current map. On another thread, finds the faint surroundings of a cut-out. If
-  /// `view` is a heat map, also computes its values.
+  /// Uploads the current map if it has changed. On another thread, finds the faint surroundings of
+  /// a cut-out. If `view` is a heat map, also computes its values.
   void update_map(const LiveMap& map, View view, bool automatic_range);
   /// Draws the layer. Adapts the view and placement in `frame` to the uploaded map.
   void draw(const LiveMap& map, View view, RenderFrame frame);
@@ -40,7 +40,8 @@ class LayerPainter {
   bool by_operator() const { return by_operator_; }
 
  private:
-  void update_fringe(const LiveMap& map);
+  void upload(const LiveMap& map, View view, bool automatic_range);
+  void update_fringe(const LiveMap& map, bool moved);
   void update_heat(const LiveMap& map, View view, bool automatic_range);
 
   std::function<void()> wake_;
@@ -63,8 +64,17 @@ class LayerPainter {
   Eigen::VectorXd heat_values_;
   HeatScale heat_scale_;
   std::shared_ptr<const Mesh> mesh_;
-  unsigned uploaded_ = 0;  ///< number of the preparation; 0: none
-  bool timed_ = false;     ///< the uploaded map is interpolated between keyframes
+  /// What was uploaded last.
+  struct Uploaded {
+    const LiveMap* map = nullptr;
+    unsigned revision = 0;
+    View view = View::image;
+    bool automatic_range = false;
+    bool operator==(const Uploaded&) const = default;
+  };
+  Uploaded uploaded_;
+  unsigned preparation_ = 0;  ///< whose mesh was uploaded; 0: none
+  bool timed_ = false;        ///< the uploaded map is interpolated between keyframes
   bool by_operator_ = false;
 };
 

@@ -1,0 +1,15 @@
+// How the process keeps memory.
+#pragma once
+
+namespace holomorph {
+
+/// Lets the allocator keep freed memory for later, up to a limit, instead of returning it to the
+/// system at once. Each frame of a drag frees what the last one allocated. Without this, the system
+/// clears the same pages again in each frame, which takes up to 14 % of its time. Call it once,
+/// before other threads start. Does nothing if the C library is not glibc.
+void keep_freed_memory();
+
+/// The number of memory pages that the system has prepared for this process so far.
+long page_faults();
+
+}  // namespace holomorph
