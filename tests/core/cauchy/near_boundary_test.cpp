@@ -306,12 +306,15 @@ TEST_CASE("Contract: next to the boundary no method jumps, and no point makes th
         for (size_t k = 0; k + 1 < firsts.size(); ++k) {
           const bool corner = k % 5 == 0;
           const Index first = static_cast<Index>(firsts[k]);
-          // The points are a few rounding errors apart, and so are their images. At corners, maps
-          // and their derivatives may be powers of the distance.
+          // The points are up to 1e-10 of the size apart, and the images no farther than the
+          // derivatives allow. At corners, maps and their derivatives may be powers of the
+          // distance.
           constexpr double kUlps = 64;
           const double rounding = kUlps * std::numeric_limits<double>::epsilon() *
                                   std::abs(made.rest.samples[static_cast<size_t>(first)]);
-          const double near = corner ? 1e-2 * made.size : 2e-9 * made.size + rounding;
+          const double slope = std::abs(map.fz[first]) + std::abs(map.fzbar[first]);
+          const double near =
+              corner ? 1e-2 * made.size : (1e-9 + 2e-10 * slope) * made.size + rounding;
           for (Index i = first; i < static_cast<Index>(firsts[k + 1]); ++i) {
             const Complex z = made.rest.samples[static_cast<size_t>(i)];
             INFO(method.id << (outline ? " onto an outline" : "") << ", seed " << seed
