@@ -120,6 +120,8 @@ class Motion {
   // requested time are cached.
   std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
   std::optional<Slopes> slopes_;
+  /// The least_moving_point of the interval from a key.
+  std::optional<std::pair<size_t, Location>> still_;
   std::shared_ptr<const ProvedMotion> proved_;  ///< null if the method proves nothing
   struct KnownInterval {
     size_t from = 0;

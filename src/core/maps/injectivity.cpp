@@ -139,7 +139,8 @@ bool is_immersion(const Mesh& mesh, const VectorXc& f) {
   VectorXd angles = VectorXd::Zero(f.size());
   for (const Triangle& t : mesh.triangles)
     for (size_t k = 0; k < 3; ++k)
-      angles[t[k]] += std::arg((f[t[(k + 2) % 3]] - f[t[k]]) / (f[t[(k + 1) % 3]] - f[t[k]]));
+      angles[t[k]] +=
+          std::arg(times(f[t[(k + 2) % 3]] - f[t[k]], std::conj(f[t[(k + 1) % 3]] - f[t[k]])));
   for (const int v : mesh.boundary) angles[v] = 0;
   return angles.maxCoeff() < 3 * kPi;
 }
@@ -163,7 +164,7 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   }
   found.turning_number = turning_number(simplified);
   // In a part that is wound up thinly, the simplified boundary may turn more often.
-  if (is_immersion(mesh, f)) found.turning_number = 1;
+  if (std::round(found.turning_number) == 1 || is_immersion(mesh, f)) found.turning_number = 1;
   const Shrunken shrunken = most_shrunken(mesh, f);
   found.least_stretch = shrunken.least;
   if (found.folds_at.empty() && found.folds()) found.folds_at = {shrunken.at};

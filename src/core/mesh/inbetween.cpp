@@ -113,7 +113,7 @@ VectorXc Inbetween::slopes(const Shape* before, const Shape& here, const Shape* 
 }
 
 void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
-  const auto& [a, b, duration, slopes_a, slopes_b] = interval;
+  const auto& [a, b, duration, slopes_a, slopes_b, still] = interval;
   if (u <= 0 || u >= 1) {
     f = u <= 0 ? a.f : b.f;
     return;
@@ -135,8 +135,8 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
     }
   }
   f = laplacian_->solve(right);  // one pass over the factor for both parts
-  const Location still = least_moving_point(*mesh_, a.f, b.f);
-  const auto at = [&](const VectorXc& map) { return still.in(*mesh_, as_span(map)); };
+  const Location place = still ? *still : least_moving_point(*mesh_, a.f, b.f);
+  const auto at = [&](const VectorXc& map) { return place.in(*mesh_, as_span(map)); };
   f.array() += (1 - weight) * at(a.f) + weight * at(b.f) - at(f);
 }
 
