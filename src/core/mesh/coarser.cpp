@@ -81,7 +81,7 @@ class Collapse {
       for (const int w : triangle(i))
         if (w != v) found.push_back(w);
     std::ranges::sort(found);
-    found.erase(std::ranges::unique(found).begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
 
