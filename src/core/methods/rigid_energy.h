@@ -14,9 +14,10 @@ namespace holomorph {
 /// plus handle_weight() |f(h) - target|^2 for each handle h (after Sorkine, Alexa 2007, eq. 3, with
 /// one rotation per triangle). Maps are given by their values at the mesh's vertices.
 ///
-/// The published iterations need long to bend a limb, because its rotations are smooth: each
-/// iteration only matches the rotations of neighboring triangles. On coarser meshes, they are
-/// neighbors. A RigidEnergy therefore owns the same energy on a coarser mesh, and so on.
+/// Each published iteration makes the rotations of neighboring triangles more alike. A limb that
+/// bends needs hundreds of iterations, because its rotations change slowly along many triangles. On
+/// a coarser mesh there are fewer triangles between its ends. A RigidEnergy therefore owns the same
+/// energy on a coarser mesh, which owns one on a mesh that is coarser still.
 class RigidEnergy {
  public:
   /// `handles` are places in the mesh. Cost: sparse factorizations of the mesh and of coarser ones.
@@ -25,7 +26,7 @@ class RigidEnergy {
 
   double handle_weight() const { return handle_weight_; }
   double stiffness(size_t triangle) const { return stiffness_[triangle]; }
-  /// The gradient by which handles with these targets pull the vertices of the map 0.
+  /// The part of the linear system's right-hand side that handles with these targets contribute.
   VectorXc pull(const Points& targets) const;
 
   /// One iteration as published: finds the rotations R of f, and then the map f of least energy for
@@ -33,8 +34,8 @@ class RigidEnergy {
   void iterate(const Points& targets, VectorXc& f) const;
   /// Improves f on the coarser meshes, and then iterates once; 30 times on the coarsest mesh. This
   /// is a cycle of the full approximation scheme (Brandt 1977). Near a minimum, each cycle makes
-  /// the error several times smaller, however fine the mesh is. Cost: twice that of iterate(), or
-  /// less.
+  /// the error several times smaller, however fine the mesh is. Cost: about twice that of
+  /// iterate().
   void cycle(const Points& targets, VectorXc& f) const;
 
  private:
@@ -49,7 +50,7 @@ class RigidEnergy {
               std::vector<Handle> handles, std::optional<double> handle_weight);
   static std::vector<Handle> handles_at(const Mesh& mesh, const std::vector<Location>& places);
   VectorXc rotations_of(const VectorXc& f) const;  ///< one per triangle
-  /// How triangles pull the vertices if they want to be at rest up to these rotations.
+  /// The part of the right-hand side that triangles with these rotations contribute.
   VectorXc turned_by(const VectorXc& rotations) const;
   void improve(const VectorXc& load, VectorXc& f) const;
 
