@@ -543,7 +543,7 @@ const Entry kEntries[] = {
      [](int) { return inbetween_loss_percent(false); }},
     {"keyframes: the same, positions blended linearly (for comparison)", "%", 0, 1,
      [](int) { return inbetween_loss_percent(true); }},
-    {"drag: memory pages prepared in a frame, method with most", "", 0, 1,
+    {"drag: page faults in a frame, worst method", "", 0, 1,
      [](int) { return drag_page_faults(); }},
     {"layers: drag of a pin, one layer of 100 keyframes, without drawing", "ms", 0, 1,
      [](int) { return layered_drag_ms(1); }},

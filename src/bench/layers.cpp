@@ -1,11 +1,13 @@
 // Benchmarks of scenes with many layers and keyframes.
 #include <algorithm>
+#include <chrono>
 #include <thread>
+#include <vector>
 
 #include "bench/measures.h"
 #include "bench/wavy.h"
 #include "core/clock.h"
-#include "core/methods/linear.h"
+#include "core/maps/deformer.h"
 #include "scene/keyframes.h"
 #include "scene/layer_maps.h"
 #include "scene/posed_map.h"
@@ -46,7 +48,7 @@ void update(LayerMaps& maps, const Scene& scene, const Deformation& edited, Eval
   maps.of(scene.layer().id).update(edited, options, moment);
 }
 
-/// Updates the maps until no worker is busy any more.
+/// Updates the maps until all workers are idle.
 void settle(LayerMaps& maps, const Scene& scene, const Moment& moment) {
   const auto busy = [&](const SharedLayer& layer) { return maps.of(layer->id).busy(); };
   do {

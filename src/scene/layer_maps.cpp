@@ -37,21 +37,21 @@ bool LayerMaps::update_others(const Scene& scene, const Moment& moment) {
     entry = gone ? maps_.erase(entry) : std::next(entry);
   }
   settled_.erase(scene.layer().id);  // it is updated elsewhere
-  std::vector<SharedLayer> open;
+  std::vector<SharedLayer> unsettled;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const SharedLayer& layer = scene.layers[i];
     if (i == scene.edited || !(layer->visible || carries_others(scene, i))) continue;
-    of(layer->id);
+    const bool busy = of(layer->id).busy();
     const auto settled = settled_.find(layer->id);
-    if (settled == settled_.end() || settled->second != std::pair(layer, moment))
-      open.push_back(layer);
+    if (busy || settled == settled_.end() || settled->second != std::pair(layer, moment))
+      unsettled.push_back(layer);
   }
   std::atomic<bool> changed = false;
-  parallel_for(static_cast<int>(open.size()), [&](int i) {
-    const Layer& layer = *open[static_cast<size_t>(i)];
+  parallel_for(static_cast<int>(unsettled.size()), [&](int i) {
+    const Layer& layer = *unsettled[static_cast<size_t>(i)];
     if (maps_.at(layer.id)->update(layer.deformation, {}, moment)) changed = true;
   });
-  for (const SharedLayer& layer : open)
+  for (const SharedLayer& layer : unsettled)
     if (!of(layer->id).busy()) settled_[layer->id] = {layer, moment};
   return changed;
 }

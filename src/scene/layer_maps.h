@@ -24,7 +24,8 @@ class LayerMaps {
   /// The map of the layer with this id, or an empty map if it does not exist yet.
   const LiveMap& of(int id) const;
   /// Updates the maps of all visible layers and of those that they follow, except the edited layer,
-  /// to the given moment. Releases the maps of deleted layers. Returns whether any map changed.
+  /// to the given moment, on all processor cores. Releases the maps of deleted layers. Returns
+  /// whether any map changed.
   bool update_others(const Scene& scene, const Moment& moment);
   /// Where the plane of a layer lies in the scene's plane, with the displayed maps of the layers
   /// that it follows. `scene` is the document's.

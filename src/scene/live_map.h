@@ -11,7 +11,7 @@ namespace holomorph {
 /// states, solves the poses of methods that iterate, and finds the maps of many keyframes.
 /// Meanwhile, the newest map that is ready is displayed. Other poses take little time, and update()
 /// computes them itself. The last map also remains available after an error; error() returns that
-/// error.
+/// error. Threads: functions of different maps may run at the same time.
 class LiveMap {
  public:
   explicit LiveMap(MeshOptions options = {}) : worker_(options) {}

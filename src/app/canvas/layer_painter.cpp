@@ -92,6 +92,7 @@ void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_ran
 void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_range) {
   const Uploaded wanted{&map, map.revision(), view, automatic_range};
   const bool changed = uploaded_ != wanted;
+  if (uploaded_.map != &map) preparation_ = 0;  // maps count their preparations independently
   if (changed) upload(map, view, automatic_range);
   uploaded_ = wanted;
   if (map.has_map()) update_fringe(map, changed);

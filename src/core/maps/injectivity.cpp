@@ -60,7 +60,7 @@ Points visible_folds(const Mesh& mesh, const VectorXc& f) {
 /// |f_z| - |f_zbar| of the linear map that takes the edges z1 and z2 of a triangle to f1 and f2.
 double stretch(Complex z1, Complex z2, Complex f1, Complex f2) {
   const Complex fz = times(f1, std::conj(z2)) - times(f2, std::conj(z1)),
-                fzbar = times(z1, f2) - times(z2, f1);  // both times 2 i area
+                fzbar = times(z1, f2) - times(z2, f1);  // both times -4 i area
   return (std::sqrt(std::norm(fz)) - std::sqrt(std::norm(fzbar))) / (2 * std::abs(cross(z1, z2)));
 }
 
@@ -163,7 +163,8 @@ Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
     simplified.points.insert(simplified.points.end(), loop.begin(), loop.end());
   }
   found.turning_number = turning_number(simplified);
-  // In a part that is wound up thinly, the simplified boundary may turn more often.
+  // In a part that is wound up thinly, the simplified boundary may turn more often. Only then are
+  // the angles needed, which take long.
   if (std::round(found.turning_number) == 1 || is_immersion(mesh, f)) found.turning_number = 1;
   const Shrunken shrunken = most_shrunken(mesh, f);
   found.least_stretch = shrunken.least;

@@ -1,8 +1,11 @@
 // Collapses the shortest edges first. A collapse moves one end of an edge to the other, which
-// removes the triangles beside the edge.
+// removes the triangles next to the edge.
 #include "core/mesh/coarser.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -16,6 +19,47 @@ double roundness(Complex a, Complex b, Complex c) {
   return cross(b - a, c - a) / std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
 }
 
+/// Locates points near given vertices.
+class NearbyTriangles {
+ public:
+  explicit NearbyTriangles(const Mesh& mesh) : mesh_(mesh), around_(mesh.vertices.size()) {
+    for (size_t i = 0; i < mesh.triangles.size(); ++i)
+      for (const int v : mesh.triangles[i])
+        around_[static_cast<size_t>(v)].push_back(static_cast<int>(i));
+  }
+
+  /// Walks from the triangles around a vertex to where the smallest barycentric coordinate of z is
+  /// largest, as long as it grows.
+  Location location(int vertex, Complex z) const {
+    Location best = weighted(around_[static_cast<size_t>(vertex)].front(), z);
+    for (bool better = true; better && least(best) < 0;) {
+      better = false;
+      const Triangle corners = mesh_.triangles[static_cast<size_t>(best.triangle)];
+      for (const int v : corners)
+        for (const int i : around_[static_cast<size_t>(v)])
+          if (const Location here = weighted(i, z); least(here) > least(best)) {
+            best = here;
+            better = true;
+          }
+    }
+    return best;
+  }
+
+ private:
+  static double least(const Location& at) { return *std::ranges::min_element(at.weights); }
+
+  Location weighted(int triangle, Complex z) const {
+    const Triangle& t = mesh_.triangles[static_cast<size_t>(triangle)];
+    const auto side = [&](int k) { return mesh_.vertices[static_cast<size_t>(t[k])] - z; };
+    const Complex a = side(0), b = side(1), c = side(2);
+    const double wa = cross(b, c), wb = cross(c, a), wc = cross(a, b), area = wa + wb + wc;
+    return {triangle, {wa / area, wb / area, wc / area}};
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::vector<int>> around_;  ///< the triangles around each vertex
+};
+
 class Collapse {
  public:
   explicit Collapse(const Mesh& mesh)
@@ -23,7 +67,9 @@ class Collapse {
         on_boundary_(boundary_marks(mesh)),
         triangles_(mesh.triangles),
         around_(mesh.vertices.size()),
+        into_(mesh.vertices.size()),
         left_(mesh.vertices.size()) {
+    std::iota(into_.begin(), into_.end(), 0);
     for (size_t i = 0; i < triangles_.size(); ++i)
       for (int k = 0; k < 3; ++k) {
         around(triangles_[i][k]).push_back(static_cast<int>(i));
@@ -61,6 +107,12 @@ class Collapse {
         if (const int v = number[static_cast<size_t>(mesh_.boundary[static_cast<size_t>(i)])];
             v >= 0)
           mesh.boundary.push_back(v);
+    }
+    const NearbyTriangles nearby(mesh);
+    for (size_t v = 0; v < around_.size(); ++v) {
+      size_t end = v;
+      while (into_[end] != static_cast<int>(end)) end = static_cast<size_t>(into_[end]);
+      out.locations.push_back(nearby.location(number[end], mesh_.vertices[v]));
     }
     return out;
   }
@@ -129,6 +181,7 @@ class Collapse {
         around(to).push_back(i);
       }
     }
+    into_[static_cast<size_t>(from)] = to;
     --left_;
     for (const int w : neighbors(to)) propose(to, w);
     return true;
@@ -138,6 +191,7 @@ class Collapse {
   std::vector<char> on_boundary_;
   std::vector<Triangle> triangles_;           ///< removed ones have negative corners
   std::vector<std::vector<int>> around_;      ///< the triangles around each vertex
+  std::vector<int> into_;                     ///< where each vertex has moved; itself if it is left
   size_t left_;                               ///< vertices that are left
   using Edge = std::tuple<double, int, int>;  // squared length and ends
   std::priority_queue<Edge, std::vector<Edge>, std::greater<>> shortest_;

@@ -5,16 +5,19 @@
 
 namespace holomorph {
 
-/// A coarser mesh, and the vertices that it has kept.
+/// A coarser mesh, and how it was made from a finer one.
 struct CoarserMesh {
   Mesh mesh;
   std::vector<int> kept;  ///< for each of its vertices, the same vertex of the finer mesh
+  /// Where the vertices of the finer mesh lie in it. The triangle is near the vertex along the
+  /// mesh, not only in the plane. A vertex outside has a negative weight.
+  std::vector<Location> locations;
 };
 
-/// A mesh with about `count` of the vertices of another mesh, or as few as collapsing edges allows.
-/// It has the same number of holes. All triangles stay counter-clockwise, and none becomes a
-/// sliver. The boundary keeps only some of its vertices, so the covered domain changes a little.
-/// `cage_vertices` is empty. Cost: O(n log n).
+/// A mesh with `count` of the vertices of another mesh, or more if no further edge is found that
+/// can collapse. It has the same number of holes. All triangles stay counter-clockwise, and none
+/// becomes a sliver. The boundary keeps only some of its vertices; it moves by up to a tenth of an
+/// edge in each collapse. `cage_vertices` is empty. Cost: O(n log n).
 CoarserMesh coarser_mesh(const Mesh& mesh, size_t count);
 
 }  // namespace holomorph

@@ -94,8 +94,7 @@ class ArapDeformer final : public Deformer {
     }
     const bool continues = options.draft && before && before->f.size() == vertices();
     found.f = continues ? before->f : start(targets);
-    out.iterations = minimize(targets, options, found.f);
-    if (out.iterations == most_rounds(options)) out.status = SampledMap::Status::iterating;
+    out.iterations = minimize(targets, options, found.f, out.status);
     return found;
   }
 
@@ -128,15 +127,18 @@ class ArapDeformer final : public Deformer {
     return vertices() > kManyVertices ? 1 : kDraftRounds;
   }
 
-  int minimize(const Points& targets, const EvalOptions& options, VectorXc& f) const {
+  /// Returns the number of rounds. The status is `iterating` if the last round has still moved f.
+  int minimize(const Points& targets, const EvalOptions& options, VectorXc& f,
+               SampledMap::Status& status) const {
     int round = 0;
-    for (double moved = HUGE_VAL; round < most_rounds(options) && moved > kSmallestMove * size_;
-         ++round) {
+    double moved = HUGE_VAL;
+    for (; round < most_rounds(options) && moved > kSmallestMove * size_; ++round) {
       throw_if_stopped(options.stop);
       const VectorXc before = f;
       energy_.cycle(targets, f);
       moved = (f - before).cwiseAbs().maxCoeff();
     }
+    if (moved > kSmallestMove * size_) status = SampledMap::Status::iterating;
     return round;
   }
 

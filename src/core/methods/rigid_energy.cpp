@@ -6,15 +6,14 @@
 #include "core/arithmetic.h"
 #include "core/error.h"
 #include "core/mesh/coarser.h"
-#include "core/mesh/locator.h"
 
 namespace holomorph {
 namespace {
 
 constexpr double kHandleWeight = 1e3;  ///< relative to the energy's mean diagonal
-/// A coarser mesh has fewer vertices by this factor, but not fewer than kFewest.
+/// A coarser mesh has fewer vertices by this factor, but at least kFewest.
 constexpr size_t kCoarsening = 8, kFewest = 100;
-constexpr int kCoarsestIterations = 30;
+constexpr int kCoarseCycles = 2, kCoarsestIterations = 30;
 
 Complex opposite(const Mesh& mesh, const Triangle& t, int corner) {
   return mesh.vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
@@ -25,13 +24,13 @@ Complex opposite(const Mesh& mesh, const Triangle& t, int corner) {
 
 /// The energy on the next coarser mesh, and how values pass between the meshes.
 struct RigidEnergy::Coarser {
-  Coarser(std::shared_ptr<const Mesh> mesh, std::vector<int> kept_vertices, const RigidEnergy& fine,
+  Coarser(std::shared_ptr<const Mesh> mesh, CoarserMesh made, const RigidEnergy& fine,
           std::span<const BrushDab> stiffness)
-      : kept(std::move(kept_vertices)),
-        places(located(*mesh, fine.mesh_->vertices)),
-        energy(mesh, stiffness, interpolated(*mesh, fine.handles_), fine.handle_weight_) {}
+      : kept(std::move(made.kept)),
+        locations(std::move(made.locations)),
+        energy(mesh, stiffness, restricted_handles(*mesh, fine.handles_), fine.handle_weight_) {}
 
-  /// Values at the vertices that this mesh has, too.
+  /// Values at the vertices that this mesh has kept.
   VectorXc injected(const VectorXc& values) const {
     VectorXc found(static_cast<Index>(kept.size()));
     for (Index v = 0; v < found.size(); ++v) found[v] = values[kept[static_cast<size_t>(v)]];
@@ -41,41 +40,34 @@ struct RigidEnergy::Coarser {
   /// The transpose of interpolated().
   VectorXc restricted(const VectorXc& values) const {
     VectorXc sum = VectorXc::Zero(static_cast<Index>(kept.size()));
-    for (size_t v = 0; v < places.size(); ++v) {
-      const Triangle& t = energy.mesh_->triangles[static_cast<size_t>(places[v].triangle)];
+    for (size_t v = 0; v < locations.size(); ++v) {
+      const Triangle& t = energy.mesh_->triangles[static_cast<size_t>(locations[v].triangle)];
       for (size_t k = 0; k < 3; ++k)
-        sum[t[k]] += places[v].weights[k] * values[static_cast<Index>(v)];
+        sum[t[k]] += locations[v].weights[k] * values[static_cast<Index>(v)];
     }
     return sum;
   }
 
   VectorXc interpolated(const VectorXc& values) const {
-    VectorXc found(static_cast<Index>(places.size()));
-    for (size_t v = 0; v < places.size(); ++v)
-      found[static_cast<Index>(v)] = places[v].in(*energy.mesh_, as_span(values));
+    VectorXc found(static_cast<Index>(locations.size()));
+    for (size_t v = 0; v < locations.size(); ++v)
+      found[static_cast<Index>(v)] = locations[v].in(*energy.mesh_, as_span(values));
     return found;
   }
 
-  std::vector<int> kept;         ///< the vertices of the finer mesh that this one has
-  std::vector<Location> places;  ///< of the finer mesh's vertices
+  std::vector<int> kept;            ///< the vertices of the finer mesh that this one has
+  std::vector<Location> locations;  ///< of the finer mesh's vertices
   RigidEnergy energy;
 
  private:
-  static std::vector<Location> located(const Mesh& mesh, const Points& points) {
-    const MeshLocator locator(mesh);
-    std::vector<Location> found;
-    for (const Complex& z : points) found.push_back(locator.near(z));
-    return found;
-  }
-
   /// The finer mesh's handles as sums of this mesh's vertices. Any other choice of handles would
   /// move the minimum.
-  std::vector<Handle> interpolated(const Mesh& mesh, const std::vector<Handle>& fine) const {
+  std::vector<Handle> restricted_handles(const Mesh& mesh, const std::vector<Handle>& fine) const {
     std::vector<Handle> found;
     for (const Handle& handle : fine) {
       std::map<int, double> sum;
       for (const auto& [v, weight] : handle) {
-        const Location& at = places[static_cast<size_t>(v)];
+        const Location& at = locations[static_cast<size_t>(v)];
         for (size_t k = 0; k < 3; ++k)
           sum[mesh.triangles[static_cast<size_t>(at.triangle)][k]] += weight * at.weights[k];
       }
@@ -119,17 +111,17 @@ RigidEnergy::RigidEnergy(std::shared_ptr<const Mesh> shared, std::span<const Bru
   factor_.compute(matrix_);
   check(factor_.info() == Eigen::Success, "rigid energy: the matrix is definite");
 
-  if (mesh.vertices.size() < kCoarsening * kFewest) return;
-  CoarserMesh coarser = coarser_mesh(mesh, mesh.vertices.size() / kCoarsening);
+  if (mesh.vertices.size() < 2 * kFewest) return;
+  CoarserMesh coarser = coarser_mesh(mesh, std::max(kFewest, mesh.vertices.size() / kCoarsening));
   if (2 * coarser.kept.size() > mesh.vertices.size()) return;
-  coarser_ = std::make_shared<const Coarser>(std::make_shared<const Mesh>(std::move(coarser.mesh)),
-                                             std::move(coarser.kept), *this, stiffness);
+  const auto fewer = std::make_shared<const Mesh>(std::move(coarser.mesh));
+  coarser_ = std::make_shared<const Coarser>(fewer, std::move(coarser), *this, stiffness);
 }
 
 std::vector<RigidEnergy::Handle> RigidEnergy::handles_at(const Mesh& mesh,
-                                                         const std::vector<Location>& places) {
+                                                         const std::vector<Location>& locations) {
   std::vector<Handle> handles;
-  for (const Location& at : places) {
+  for (const Location& at : locations) {
     Handle& handle = handles.emplace_back();
     for (size_t k = 0; k < 3; ++k)
       handle.push_back({mesh.triangles[static_cast<size_t>(at.triangle)][k], at.weights[k]});
@@ -174,8 +166,9 @@ void RigidEnergy::cycle(const Points& targets, VectorXc& f) const {
   improve(pull(targets), f);
 }
 
-/// Minimizes the energy minus the real part of the product of f and `load`. On the coarser mesh,
-/// the load is such that a map there in the same state has the gradient of the finer map.
+/// Makes the energy for targets 0, minus twice the real part of the inner product of `load` and f,
+/// smaller. On the coarser mesh, the load is such that a map there in the same state has the
+/// gradient of the finer map.
 void RigidEnergy::improve(const VectorXc& load, VectorXc& f) const {
   const auto iterate = [&] { f = factor_.solve(turned_by(rotations_of(f)) + load); };
   if (!coarser_) {
@@ -188,7 +181,7 @@ void RigidEnergy::improve(const VectorXc& load, VectorXc& f) const {
                  coarse_load = coarser_->restricted(forces) + coarse.matrix_ * start -
                                coarse.turned_by(coarse.rotations_of(start));
   VectorXc g = start;
-  coarse.improve(coarse_load, g);
+  for (int i = 0; i < kCoarseCycles; ++i) coarse.improve(coarse_load, g);
   f += coarser_->interpolated(g - start);
   iterate();
 }

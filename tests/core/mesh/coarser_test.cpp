@@ -14,12 +14,18 @@ namespace {
 
 /// Counter-clockwise triangles, Euler's formula, closed boundaries, and nearly the same area.
 void check_coarser(const Mesh& mesh, size_t count) {
-  const auto [coarse, kept] = coarser_mesh(mesh, count);
+  const auto [coarse, kept, locations] = coarser_mesh(mesh, count);
   CAPTURE(mesh.vertices.size(), count, coarse.vertices.size());
   CHECK(coarse.vertices.size() >= count);
   REQUIRE(kept.size() == coarse.vertices.size());
   for (size_t v = 0; v < kept.size(); ++v)
     CHECK(coarse.vertices[v] == mesh.vertices[static_cast<size_t>(kept[v])]);
+  REQUIRE(locations.size() == mesh.vertices.size());
+  for (size_t v = 0; v < locations.size(); ++v) {
+    CHECK(std::abs(locations[v].in(coarse, coarse.vertices) - mesh.vertices[v]) < 1e-6);
+    // The triangle is where the vertex is, or next to where the boundary has moved away from it.
+    CHECK(*std::ranges::min_element(locations[v].weights) > -1);
+  }
   std::set<std::pair<int, int>> sides;
   const auto area_of = [](const Mesh& of, const Triangle& t) {
     return 0.5 *

@@ -101,6 +101,32 @@ TEST_CASE("Rigid energy: a cycle is near the minimum on fine meshes, too") {
   }
 }
 
+TEST_CASE("Rigid energy: narrow gaps do not tie limbs together") {
+  for (const unsigned seed : seeds_of("rigid combs", {1, 2})) {
+    std::mt19937 random(seed);
+    HeldBar comb(2000, 0);
+    comb.mesh = std::make_shared<const Mesh>(
+        domain_mesh(shapes::comb(4), {1500 + static_cast<int>(random() % 4000)}));
+    comb.handles.clear();
+    comb.targets.clear();
+    // Pins in all teeth; one tooth bends.
+    for (int tooth = 0; tooth < 4; ++tooth)
+      for (const Complex z : {Complex(20.0 * tooth + 9, 8), Complex(20.0 * tooth + 9, 95)}) {
+        comb.handles.push_back(locate_near(*comb.mesh, z));
+        comb.targets.push_back(z);
+      }
+    comb.targets[2] += Complex(6, 3) * random_complex(random);
+    const RigidEnergy energy = comb.energy();
+    VectorXc f = comb.at_rest(), iterated = f;
+    for (int i = 0; i < 3; ++i) energy.cycle(comb.targets, f);
+    for (int i = 0; i < 6; ++i) energy.iterate(comb.targets, iterated);
+    CAPTURE(seed, comb.mesh->vertices.size(), comb.targets[2]);
+    CHECK(comb.value(f) < comb.value(iterated) + 1e-9);
+    for (int i = 0; i < 60; ++i) energy.cycle(comb.targets, f);
+    CHECK(movement(energy, comb.targets, f) < 1e-5);
+  }
+}
+
 TEST_CASE("Rigid energy: maps at rest stay, and rigid motions are found") {
   for (const double angle : {0.0, 2.0}) {
     HeldBar bar(3000, 0);
