@@ -219,6 +219,9 @@ void Window::begin_frame(bool navigates) {
   // ImGui itself activates buttons only with Space. This adds Enter.
   if (navigates && enter_activates_) io.NavInputs[ImGuiNavInput_Activate] = 1;
   io.KeyAlt = io.KeyAlt || alt_;
+  // The second press comes two frames after the first at the earliest, which may be slow ones.
+  constexpr float kDoubleClickSeconds = 0.3f;
+  io.MouseDoubleClickTime = kDoubleClickSeconds + 2 * io.DeltaTime;
   ImGui::NewFrame();
   advance_theme();
   forget_item_boxes();
