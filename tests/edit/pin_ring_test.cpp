@@ -41,7 +41,8 @@ struct RingDesk : TestWorkspace {
 TEST_CASE("Ring: Ctrl changes the radius of the held disk in one step") {
   for (const unsigned seed : seeds_of("held disk drags", {1, 2})) {
     std::mt19937 random(seed);
-    const double by = std::uniform_real_distribution<double>(5, 40)(random);
+    // Shorter drags than two thresholds do nothing.
+    const double by = std::uniform_real_distribution<double>(2 * kDragThresholdPx + 1, 40)(random);
     const Complex side =
         std::polar(1.0, std::uniform_real_distribution<double>(0, 2 * kPi)(random));
     for (const ToolId tool : {ToolId::pin, ToolId::select})
