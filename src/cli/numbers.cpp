@@ -46,6 +46,19 @@ size_t block_size(const TimedMap& map) {
   return static_cast<size_t>(std::max(1.0, kBudgetFraction * budget().coordinates / controls));
 }
 
+/// A line for each preimage, or only for the topmost one, that starts with `columns`. Without a
+/// preimage, a line of NaN.
+std::string preimage_lines(std::vector<Preimage> found, const std::string& columns, bool all) {
+  const size_t count = found.size();
+  if (found.empty()) found.push_back({Complex(NAN, NAN), NAN});
+  if (!all) found.resize(1);
+  std::string lines;
+  for (const Preimage& preimage : found)
+    lines += columns + csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
+                                preimage.residual, count);
+  return lines;
+}
+
 }  // namespace
 
 void run(const MapCommand& command) {
@@ -98,17 +111,16 @@ void run(const InverseCommand& command) {
     if (!inverse)
       throw Error(ErrorKind::bad_input,
                   "method '" + scene.deformation().method + "' has no inverse");
-    for (size_t i = 0; i < points.size(); ++i) {
-      progress.step(k * points.size() + i, moments.size() * points.size());
-      std::vector<Preimage> found = inverse->inverse.at(points[i]);
-      const size_t count = found.size();
-      if (found.empty()) found.push_back({Complex(NAN, NAN), NAN});
-      for (const Preimage& preimage : found) {
-        out.write(frame_column(moments[k]) + (command.all ? std::to_string(i) + "," : "") +
-                  csv_line("%.17g,%.17g,%.3g,%zu\n", preimage.z.real(), preimage.z.imag(),
-                           preimage.residual, count));
-        if (!command.all) break;  // only the topmost preimage
-      }
+    constexpr size_t kBlock = 8192;  // limits the memory, and lets the progress be shown
+    for (size_t from = 0; from < points.size(); from += kBlock) {
+      progress.step(k * points.size() + from, moments.size() * points.size());
+      const size_t count = std::min(kBlock, points.size() - from);
+      const auto found = inverse->at(std::span(points).subspan(from, count));
+      for (size_t i = 0; i < count; ++i)
+        out.write(preimage_lines(
+            found[i],
+            frame_column(moments[k]) + (command.all ? std::to_string(from + i) + "," : ""),
+            command.all));
     }
   }
   out.finish();

@@ -15,38 +15,45 @@ double rounding_at(Complex w, Complex f) {
 /// this many times the sum of the squared chord and the squared bulge.
 constexpr double kFarAway = 9;
 
-/// Whether w is farther from the piece's chord than the arc's image can be.
-bool is_clear_of(const ImageWinding::Piece& piece, Complex w) {
-  return nearest_on_segment(piece.from, piece.to, w).distance >
-         piece.bulge + rounding_at(w, piece.from);
+/// The angle by which a chord turns around w, if the chord is farther from w than `bulge`.
+std::optional<double> turn_of_chord(Complex from, Complex to, double bulge, Complex w) {
+  if (nearest_on_segment(from, to, w).distance <= bulge + rounding_at(w, from)) return {};
+  const Complex a = from - w, b = to - w;
+  return std::atan2(cross(a, b), dot(a, b));
 }
 
 }  // namespace
 
-ImageWinding::Piece ImageWinding::piece_between(const Arc& arc, Complex from, Complex to) const {
-  Piece piece{arc, from, to, 0};
-  for (const double fraction : {0.25, 0.5, 0.75})
-    piece.bulge = std::max(
-        piece.bulge,
-        2 * nearest_on_segment(from, to, map_.at(point_on(cage_, arc, fraction)).f).distance);
+ImageWinding::Piece ImageWinding::piece_between(const Arc& arc, Complex from, Complex middle,
+                                                Complex to) const {
+  const auto image = [&](double fraction) { return map_.at(point_on(cage_, arc, fraction)).f; };
+  Piece piece{arc, from, to, {image(0.25), middle, image(0.75)}};
+  for (const Complex f : piece.inner)
+    piece.bulge = std::max(piece.bulge, 2 * nearest_on_segment(from, to, f).distance);
   return piece;
 }
 
 ImageWinding::Piece ImageWinding::piece(const Arc& arc) const {
-  return piece_between(arc, map_.at(arc.from).f, map_.at(arc.to).f);
+  return piece_between(arc, map_.at(arc.from).f, map_.at(point_on(cage_, arc, 0.5)).f,
+                       map_.at(arc.to).f);
 }
 
 std::optional<double> ImageWinding::turn(const Piece& piece, Complex w, int depth) const {
-  const Complex a = piece.from - w, b = piece.to - w;
-  if (is_clear_of(piece, w)) return std::atan2(cross(a, b), dot(a, b));
+  if (const auto chord = turn_of_chord(piece.from, piece.to, piece.bulge, w)) return chord;
   constexpr int kDeepest = 50;
   const double least = 10 * rounding_at(w, piece.from);
   if (depth == kDeepest || std::abs(piece.to - piece.from) + piece.bulge <= least) return {};
-  const auto [first, second] = cut_arc(cage_, piece.arc, 0.5);
-  const Complex middle = map_.at(first.to).f;
-  const auto before = turn(piece_between(first, piece.from, middle), w, depth + 1);
+  // Half an arc bulges less than the whole arc. If w is clear of the half by that much, the half's
+  // own bulge need not be known.
+  const auto part = [&](const Arc& half, Complex from, Complex middle, Complex to) {
+    const auto chord = turn_of_chord(from, to, piece.bulge, w);
+    return chord ? chord : turn(piece_between(half, from, middle, to), w, depth + 1);
+  };
+  const auto halves = cut_arc(cage_, piece.arc, 0.5);
+  const auto [quarter, middle, last_quarter] = piece.inner;
+  const auto before = part(halves[0], piece.from, quarter, middle);
   if (!before) return {};
-  const auto after = turn(piece_between(second, middle, piece.to), w, depth + 1);
+  const auto after = part(halves[1], middle, last_quarter, piece.to);
   if (!after) return {};
   return *before + *after;
 }

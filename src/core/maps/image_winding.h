@@ -17,11 +17,13 @@ class ImageWinding {
   /// `cage` and `map` must outlive this object.
   ImageWinding(const Cage& cage, const PointMap& map) : cage_(cage), map_(map) {}
 
-  /// An arc and the images of its ends. `bulge` estimates how far the arc's image deviates from its
-  /// chord: twice the largest deviation at three points.
+  /// An arc, the images of its ends and those of the points at a quarter, a half and three quarters
+  /// of it. `bulge` estimates how far the arc's image deviates from its chord: twice the largest
+  /// deviation at these three points.
   struct Piece {
     Arc arc;
     Complex from, to;
+    std::array<Complex, 3> inner;
     double bulge = 0;
   };
   /// Cost: five evaluations of the map.
@@ -29,14 +31,14 @@ class ImageWinding {
 
   /// The angle in radians by which f - w turns along a piece. Empty when w lies on the piece's
   /// image to within rounding error. If w is near the image, the piece is halved repeatedly. Cost:
-  /// seven evaluations of the map for each halving, none if w is not near.
+  /// two evaluations of the map for each half that w is near.
   std::optional<double> turn(const Piece& piece, Complex w) const { return turn(piece, w, 0); }
   /// The number of whole turns of f - w along a closed loop. Empty when w lies on the loop's image
   /// to within rounding error.
   std::optional<int> turns(std::span<const Piece> loop, Complex w) const;
 
  private:
-  Piece piece_between(const Arc& arc, Complex from, Complex to) const;
+  Piece piece_between(const Arc& arc, Complex from, Complex middle, Complex to) const;
   std::optional<double> turn(const Piece& piece, Complex w, int depth) const;
   std::optional<int> turns_by_angles(std::span<const Piece> loop, Complex w) const;
 
