@@ -2,9 +2,9 @@
 // silhouette crosses has 4 x 4 coverage samples, but its color is always taken at its center.
 #include "raster/drawing.h"
 
+#include "core/parallel.h"
 #include "raster/picture_rows.h"
 #include "raster/scan.h"
-#include "system/parallel.h"
 
 namespace holomorph {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "raster/scan.h"
 #include "scene/timed_map.h"
-#include "system/parallel.h"
 
 namespace holomorph {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "system/parallel.h"
+#include "core/parallel.h"
 
 namespace holomorph {
 

@@ -6,8 +6,8 @@
 
 #include "core/maps/mesh_point_map.h"
 #include "core/mesh/mesher.h"
+#include "core/parallel.h"
 #include "scene/keyframes.h"
-#include "system/parallel.h"
 
 namespace holomorph {
 namespace {

@@ -142,10 +142,10 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
     else
       pieces_.push_back({e, 0, 1});
   }
-  std::vector<double> errors = solve();
+  std::vector<double> errors = solve(tolerance);
   for (int round = 0; round < kMaxRounds && error_ > tolerance; ++round) {
     refine(errors, tolerance);
-    errors = solve();
+    errors = solve(tolerance);
   }
 }
 
@@ -196,7 +196,7 @@ void HilbertCoordinates::refine(const std::vector<double>& errors, double tolera
 }
 
 /// Fits all coordinates; returns each piece's largest error.
-std::vector<double> HilbertCoordinates::solve() {
+std::vector<double> HilbertCoordinates::solve(double tolerance) {
   boundary_ = {};
   std::vector<BoundaryPoint> samples, on_cage;
   for (size_t i = 0; i < pieces_.size(); ++i) {
@@ -236,7 +236,9 @@ std::vector<double> HilbertCoordinates::solve() {
   check(cholesky.factor(gram), "Hilbert coordinates: the normal equations are definite");
   MatrixXd x = cholesky.solve_all(transposed_matrix_product(rows, targets));
   MatrixXd off = targets - matrix_product(rows, x);
-  for (int refined = 0; refined < kRefinements; ++refined) {
+  // The normal equations lose digits. Refining them rarely spares a round.
+  for (int refined = 0; refined < kRefinements && off.cwiseAbs().maxCoeff() > tolerance;
+       ++refined) {
     x += cholesky.solve_all(transposed_matrix_product(rows, off));
     off = targets - matrix_product(rows, x);
   }

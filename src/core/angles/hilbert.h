@@ -89,7 +89,7 @@ class HilbertCoordinates {
   MatrixXc linear_functions(std::span<const Complex> points, int order) const;
   void set_up_vertices();
   void refine(const std::vector<double>& errors, double tolerance);
-  std::vector<double> solve();
+  std::vector<double> solve(double tolerance);
   /// The logarithms that produce the jumps, one column per vertex.
   MatrixXc logarithms(std::span<const Complex> points, int order) const;
   /// The Cauchy coordinates, the powers and the logarithms of holes, one column per unknown.

@@ -2,7 +2,6 @@
 // and contains the domain.
 #include "core/cauchy/boundary_basis.h"
 
-#include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "core/cauchy/cauchy_array.h"
 #include "core/error.h"
 #include "core/geometry/orientation.h"
+#include "core/solvers/dense.h"
 
 namespace holomorph {
 namespace {
@@ -290,16 +290,18 @@ BoundaryBasis::BoundaryBasis(const Cage& domain, int basis, int samples, std::op
   samples_ = starts_of(domain_, pieces_);
   const Eigen::SparseMatrix<Complex> extended =
       extension(polygon_, kept_vertices(polygon_, most.value_or(static_cast<int>(size()))));
-  const MatrixXc c = values(samples_.points) * extended;
+  MatrixXc c = values(samples_.points) * extended;
   check(c.rows() >= c.cols(), "boundary basis: at least as many samples as vertices");
-  const Eigen::HouseholderQR<MatrixXc> qr(c);
   const double root = std::sqrt(static_cast<double>(c.rows()));
-  const MatrixXc r = qr.matrixQR().topRows(c.cols()).triangularView<Eigen::Upper>();
-  const MatrixXc inverse =
-      root * r.triangularView<Eigen::Upper>().solve(MatrixXc::Identity(c.cols(), c.cols())).eval();
+  const auto [q, r] = orthonormal(std::move(c));
+  const MatrixXc inverse = root * solve_upper(r, MatrixXc::Identity(r.rows(), r.cols()));
   coefficients_ = extended * inverse;
-  at_samples_ = root * (qr.householderQ() * MatrixXc::Identity(c.rows(), c.cols()));
+  at_samples_ = root * q;
   one_ = at_samples_.adjoint().rowwise().mean();
+}
+
+MatrixXc BoundaryBasis::whitened(const MatrixXc& values) const {
+  return matrix_product(values, coefficients_);
 }
 
 VectorXd BoundaryBasis::sample_weights() const {

@@ -79,7 +79,7 @@ class BoundaryBasis {
   /// C (or C' for order 1) at points of the domain, with one row per point.
   MatrixXc values(std::span<const Complex> points, int order = 0) const;
   /// The whitened basis at the points for which `values` holds C: F = row . unknowns.
-  MatrixXc whitened(const MatrixXc& values) const { return values * coefficients_; }
+  MatrixXc whitened(const MatrixXc& values) const;
   const MatrixXc& at_samples() const { return at_samples_; }  ///< the whitened basis
   /// The coefficients a_j for the given unknowns.
   VectorXc coefficients(const VectorXc& unknowns) const { return coefficients_ * unknowns; }

@@ -9,7 +9,6 @@
 // for soft pins and 0 for exact pins. The system is only as large as the number of pins, and each
 // pin adds one column to the operator.
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
@@ -18,6 +17,7 @@
 #include "core/methods/linear.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
+#include "core/solvers/dense.h"
 
 namespace holomorph {
 namespace {
@@ -92,8 +92,7 @@ struct PinBasis {
     const Complex anchor = inner_point();
     rows.row(m) = independent(cauchy_coordinates(basis, std::span(&anchor, 1), 0));
     rows.row(m + 1) = length * independent(cauchy_coordinates(basis, std::span(&anchor, 1), 1));
-    const Eigen::HouseholderQR<MatrixXc> qr(rows);
-    factor = qr.matrixQR().topRows(n).template triangularView<Eigen::Upper>();
+    factor = upper_factor(std::move(rows));
   }
 
   MatrixXc independent(const MatrixXc& rows) const {

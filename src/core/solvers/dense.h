@@ -1,6 +1,7 @@
 // Dense linear algebra with BLAS, for the operations that solvers repeat in every iteration.
 //
 // The BLAS library selects the instruction set at run time and also has a portable code path.
+// Large matrix products use all cores.
 #pragma once
 
 #include "core/types.h"
@@ -33,6 +34,10 @@ struct Orthonormal {
   MatrixXc q, r;
 };
 Orthonormal orthonormal(MatrixXc a);
+/// Only the R of that, in a third of the time.
+MatrixXc upper_factor(MatrixXc a);
+/// R^-1 B for an upper triangular R.
+MatrixXc solve_upper(const MatrixXc& r, MatrixXc b);
 
 /// The x that minimizes |A x - b|, by Householder reflections. A must have full rank and at least
 /// as many rows as columns. If rows have very different sizes, sort them by decreasing size to

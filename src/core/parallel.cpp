@@ -1,5 +1,5 @@
 // Each free thread takes the next number.
-#include "system/parallel.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <atomic>

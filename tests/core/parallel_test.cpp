@@ -1,6 +1,6 @@
 // Parallel loops: each index is visited once, progress is reported on the calling thread, and
 // exceptions reach the caller.
-#include "system/parallel.h"
+#include "core/parallel.h"
 
 #include <catch2/catch.hpp>
 
