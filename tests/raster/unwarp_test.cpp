@@ -35,7 +35,7 @@ Scene random_scene(const Method& method, bool curved, unsigned seed) {
     const Points stroke{{160, 190}, {200, 205}, {240, 190}};
     Points posed = stroke;
     for (Complex& z : posed) z += 6.0 * random_complex(random);
-    deformation.strokes.push_back({stroke, posed});
+    deformation.strokes.push_back({stroke, posed, {}});
   }
   return scene_of(deformation);
 }
