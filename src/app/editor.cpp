@@ -142,6 +142,7 @@ class Editor {
     parts.settling = fit_;
     parts.pending = window_.has_events();
     parts.taken = window_.taken();
+    parts.pointer = {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
     parts.asking = (files_.asking() && !files_.busy()) || palette_.open() || keys_.open();
     parts.question = files_.question();
     parts.in_panel = panel_focus_.held();

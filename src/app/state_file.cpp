@@ -85,6 +85,7 @@ nlohmann::ordered_json state_of(const Workspace& workspace, const PartsState& pa
       {"in_panel", parts.in_panel},
       {"pending", parts.pending},
       {"taken", parts.taken},
+      {"pointer", {parts.pointer.first, parts.pointer.second}},
       {"slowest_ms", parts.slowest_ms},
       {"slowest_work_ms", parts.slowest_work_ms},
       {"moving", parts.moving},

@@ -57,7 +57,7 @@ class Editor:
         except (FileNotFoundError, json.JSONDecodeError):
             return None
 
-    def wait(self, condition, what, seconds=10):
+    def wait(self, condition, what, seconds=40):
         """Waits until the state satisfies a condition and the map is ready."""
         end = time.time() + seconds
         while time.time() < end:
@@ -75,8 +75,12 @@ class Editor:
             return file.read()
 
     def xdotool(self, *words, pause=0.12):
+        """Sends input events, and waits until the window has drawn what moves and buttons change."""
+        since = self.taken()
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
         time.sleep(pause)
+        position = list(map(int, words[1:])) if words[0] == "mousemove" and len(words) == 3 else None
+        self.settle(since, words.count("mousedown") + words.count("mouseup"), position)
 
     def pixel(self, x, y):
         """The window position of a plane point, in pixels, which is also its position on the display."""
@@ -94,7 +98,7 @@ class Editor:
         """Clicks at a window position."""
         self.xdotool("mousemove", int(x), int(y))
         since = self.taken()
-        self.xdotool("click", button, pause=0.02)
+        self.xdotool("click", button, pause=0)
         self.settle(since, 2)
 
     def item(self, name, seconds=10):
@@ -179,25 +183,26 @@ class Editor:
         """How many presses and releases of keys and buttons the window has handled; 0 if it has not written its state yet."""
         return (self.state() or {"taken": 0})["taken"]
 
-    def settle(self, since, changes):
-        """Waits until the window has handled `changes` more presses and releases than `since`, and none are pending.
-        Each press or release takes a frame, and slow machines draw few frames. Gives up after 5 s, in case another
-        window got the input."""
-        end = time.time() + 5
+    def settle(self, since, changes, position=None):
+        """Waits until the window has handled `changes` more presses and releases than `since`, none are pending, and
+        the pointer is at `position`. Each press or release takes a frame, and slow machines draw few frames. Gives up
+        after 10 s, in case another window got the input."""
+        end = time.time() + 10
         while time.time() < end and self.process.poll() is None:
             state = self.state()
-            if state and not state["pending"] and state["taken"] >= since + changes:
+            arrived = state and (not position or state["pointer"] == position)
+            if arrived and not state["pending"] and state["taken"] >= since + changes:
                 return
-            time.sleep(0.03)
+            time.sleep(0.02)
 
     def key(self, name):
         since = self.taken()
-        self.xdotool("key", "--clearmodifiers", name, pause=0.02)
+        self.xdotool("key", "--clearmodifiers", name, pause=0)
         self.settle(since, 2 * len(name.split("+")))
 
     def type(self, text):
         since = self.taken()
-        self.xdotool("type", "--delay", "15", text, pause=0.02)
+        self.xdotool("type", "--delay", "15", text, pause=0)
         self.settle(since, 2 * len(text))
 
     def screenshot(self, path):

@@ -419,9 +419,11 @@ class WindowTest(WindowCase):
             editor.xdotool("mousedown", 1)
             for i in range(1, 6):
                 editor.move(400 + 24 * i, 300)
-            time.sleep(0.5)
-            during = pane("surface-pin")
-            self.assertGreater((numpy.abs(during - before).max(axis=2) > 40).mean(), 0.01)
+            end, moved = time.time() + 20, 0
+            while moved < 0.01 and time.time() < end:
+                moved = (numpy.abs(pane("surface-pin") - before).max(axis=2) > 40).mean()
+            self.assertGreater(moved, 0.01)
+            self.assertTrue(editor.state()["gesture"])
             editor.xdotool("mouseup", 1)
             editor.wait(lambda s: s["pins"] == 1 and not s["gesture"], "the pin")
             action(editor, "textured surface", textured)
