@@ -114,6 +114,13 @@ class ProductWindowTest(WindowCase):
             for tool in ("tool.select", "tool.brush", "tool.pen", "tool.stroke", "tool.pin"):
                 editor.press_item(tool)
                 self.assertEqual(places(), before, tool)
+            # A scroll bar moves nothing.
+            for section in ("section history", "section view", "section folds"):
+                editor.press_item(section)
+            after = places()
+            self.assertNotEqual(after["section history"], before["section history"])
+            above = [name for name in before if name.startswith("layer.") or name == "section method"]
+            self.assertEqual({name: after[name] for name in above}, {name: before[name] for name in above})
 
     def two_ferns(self):
         """A scene with two layers that have keyframes at 0, 1 and 2 seconds."""

@@ -33,13 +33,21 @@ void begin_panel(const char* name, ImVec2 from, ImVec2 to, ImU32 background, ImV
                  ImGuiWindowFlags flags) {
   ImGui::SetNextWindowPos(from);
   ImGui::SetNextWindowSize(to - from);
+  // A scroll bar lies in the padding, so that nothing moves sideways when it appears.
+  if (px(padding.x) >= ImGui::GetStyle().ScrollbarSize) {
+    ImGui::SetNextWindowContentSize({to.x - from.x - 2 * px(padding.x), 0});
+    ImGui::SetNextWindowScroll({0, -1});
+  }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(padding.x), px(padding.y)});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(background));
   ImGui::Begin(name, nullptr, kPanel | flags);
   ImGui::PopStyleColor();
+  const ImRect& inside = ImGui::GetCurrentWindow()->InnerRect;  // without the scroll bar
+  ImGui::PushClipRect(inside.Min, inside.Max, false);
 }
 
 void end_panel() {
+  ImGui::PopClipRect();
   ImGui::End();
   ImGui::PopStyleVar();
 }
