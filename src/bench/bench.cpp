@@ -403,7 +403,8 @@ const Entry kEntries[] = {
     {"ST-map: 2000 x 2000, with preparation, slowest method", "ms", 3000, 1,
      [](int) {
        return every_pixel_ms([](const Scene& scene, const Image& image) {
-         st_map_of(scene, image.width, image.height);
+         TimedMap map(scene);
+         st_map_of(map, image);
        });
      }},
     {"unwarp: 2000 x 2000, with preparation, slowest method", "ms", 3000, 1,

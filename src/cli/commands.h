@@ -64,6 +64,8 @@ struct ExportCommand : SceneCommand {
   std::string format;
   std::optional<double> scale = {};
   bool crop = false;
+  std::optional<int> overscan = {};  ///< of ST-maps, in their pixels
+  bool half = false;                 ///< half floats in OpenEXR files
   std::optional<Box> rectangle = {};
   bool force = false;
   Moments moments = {};

@@ -224,18 +224,25 @@ void CommandLine::add_new(CLI::App& app) {
 void CommandLine::add_export(CLI::App& app) {
   auto* sub = add(app, "export", "Write the posed scene in another format", exported);
   add_scene(sub, exported);
-  sub->add_option(
-         "--format", exported.format,
-         "obj, svg, npy, png, stmap, unwarp or textured; for films webp, gif, apng, mp4 or webm")
+  sub->add_option("--format", exported.format,
+                  "obj, svg, npy, png, stmap, unwarp-map, unwarp or textured; for films webp, gif, "
+                  "apng, mp4 "
+                  "or webm")
       ->required();
   sub->add_option(
       "--scale", exported.scale,
-      "Output pixels per image pixel, by default 1; for png, stmap, unwarp, textured and films");
+      "Output pixels per image pixel, by default 1; for png, ST-maps, unwarp, textured and films");
+  sub->add_option("--overscan", exported.overscan,
+                  "Pixels beyond each side of the picture; for stmap and unwarp-map")
+      ->check(CLI::Range(0, 8192));
+  sub->add_flag("--half", exported.half,
+                "Write half floats instead of single ones, for OpenEXR files; they are precise to "
+                "half a pixel of 2000");
   sub->add_option("--out", exported.out, "File to write")->required();
   add_rectangle(
       sub, exported.rectangle,
       sub->add_flag("--crop", exported.crop, "Crop to the picture's rectangle; for png and films"));
-  add_moments(sub, exported.moments, "; for png and films");
+  add_moments(sub, exported.moments, "; for png, ST-maps and films");
   add_force(sub, exported.force);
 }
 

@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/st_maps.h"
 #include "cli/streams.h"
 #include "core/error.h"
 #include "film/film.h"
@@ -135,11 +136,6 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   };
   if (format == "unwarp")
     return encode_png(unwarped(loaded.scene, loaded.image(), scale, time, step));
-  if (format == "stmap") {
-    const Image none, &picture = loaded.image() ? *loaded.image() : none;
-    const StMap map = st_map_of(loaded.scene, picture.width, picture.height, scale, time, step);
-    return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
-  }
   const auto& image = loaded.scene.layer().image;
   if (format == "svg" && !time) return svg_of(loaded.scene.deformation(), image);
   TimedMap timed(loaded.scene);
@@ -154,7 +150,7 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
 /// A format of `export` and the options that it accepts.
 struct Format {
   std::string id;
-  bool scale = false, crop = false, time = false, frames = false;
+  bool scale = false, crop = false, time = false, frames = false, overscan = false;
 };
 const Format& format_named(const std::string& id) {
   static const std::vector<Format> formats{
@@ -162,7 +158,8 @@ const Format& format_named(const std::string& id) {
       {.id = "svg", .time = true},
       {.id = "npy", .time = true},
       {.id = "png", .scale = true, .crop = true, .time = true, .frames = true},
-      {.id = "stmap", .scale = true, .time = true},
+      {.id = "stmap", .scale = true, .time = true, .frames = true, .overscan = true},
+      {.id = "unwarp-map", .scale = true, .time = true, .frames = true, .overscan = true},
       {.id = "unwarp", .scale = true, .time = true},
       {.id = "textured", .scale = true}};
   static const Format film{.id = "film", .scale = true, .crop = true, .frames = true};
@@ -171,8 +168,8 @@ const Format& format_named(const std::string& id) {
   if (found != formats.end()) return *found;
   throw Error(ErrorKind::bad_input,
               "unknown format '" + id +
-                  "'; choose one of: obj, svg, npy, png, stmap, unwarp, textured, webp, gif, "
-                  "apng, mp4, webm");
+                  "'; choose one of: obj, svg, npy, png, stmap, unwarp-map, unwarp, textured, "
+                  "webp, gif, apng, mp4, webm");
 }
 
 /// Throws Error for options that the format does not support.
@@ -187,6 +184,10 @@ void check_options(const ExportCommand& command) {
     throw_unsupported("--crop", "only png and films can be cropped");
   if (command.rectangle && !format.crop)
     throw_unsupported("--rect", "only png and films have a rectangle");
+  if (command.overscan && !format.overscan)
+    throw_unsupported("--overscan", "only stmap and unwarp-map extend beyond the picture");
+  if (command.half && !format.overscan)
+    throw_unsupported("--half", "only stmap and unwarp-map are written as OpenEXR");
   if (command.moments.frames && !format.frames)
     throw_unsupported("--frames", format.time ? "it shows a single moment; use --time"
                                               : "it shows the scene's own pose");
@@ -240,7 +241,8 @@ void run(const ExportCommand& command) {
                              command.force,
                              command.moments});
   const LoadedScene loaded = read_scene(command);
-  if (command.moments.time) require_keyframes(loaded.scene, command.scene);
+  if (command.moments.any()) require_keyframes(loaded.scene, command.scene);
+  if (format_named(format).overscan) return export_st_maps(loaded, command);
   check_out(command.out, command.force, command.scene, loaded);
   if (format == "textured") return export_textured(loaded, command);
   if (is_film(format)) return export_film(loaded, command);

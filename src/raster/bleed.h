@@ -11,8 +11,7 @@ namespace holomorph {
 /// Gives each uncovered pixel within `reach` pixels of a covered one the color of the nearest
 /// covered pixel. It also gets that pixel's opacity if `is_shown(column, row)` is true; otherwise
 /// it becomes transparent. All other pixels keep their values. `covered` has one entry per pixel,
-/// in rows from the top. 8-neighbor propagation finds the nearest pixel with an error in distance
-/// well below a pixel. Cost: linear in the number of pixels.
+/// in rows from the top. Cost: linear in the number of pixels.
 void bleed(Image& image, const std::vector<bool>& covered, double reach,
            const std::function<bool(int, int)>& is_shown);
 
