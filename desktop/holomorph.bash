@@ -2,16 +2,16 @@
 _holomorph() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=
   case $before in
-    --format) words="obj svg npy png stmap unwarp textured webp gif apng mp4 webm" ;;
+    --format) words="obj svg npy png stmap unwarp-map unwarp textured webp gif apng mp4 webm" ;;
     --view) words="image angle area stretch checker" ;;
     --flattening) words="lscm circle" ;;
     --frames) words="all" ;;
-    --time | --scale | --order | --detail | --vertices | --margin | --filter | --rect | --max-*) return ;;
+    --time | --scale | --overscan | --order | --detail | --vertices | --margin | --filter | --rect | --max-*) return ;;
   esac
   if [ -n "$words" ]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
   elif [ "$COMP_CWORD" -eq 1 ] && [[ $word != -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "map inverse coordinates render info new export bench" -- "$word"; compgen -f -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "map inverse coordinates render info new export formats bench" -- "$word"; compgen -f -- "$word")
   elif [[ $word == -* ]]; then
     [ "$COMP_CWORD" -gt 1 ] || command=
     # shellcheck disable=SC2086

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/formats/file_kinds.h"
 #include "scene/formats/svg_path.h"
 #include "system/new_file.h"
 #include "system/text.h"
@@ -203,13 +204,14 @@ void Files::ask_open(const Path& path) {
 }
 
 void Files::drop(const Path& path) {
-  const std::string kind = lower_case(path.extension().string());
+  const bool is_path = is_named_as(path, Content::path),
+             is_surface = is_named_as(path, Content::surface);
   const Document& document = workspace_.document;
-  if ((kind == ".obj" || kind == ".svg") && document.scene().deformation().has_cage())
+  if ((is_path || is_surface) && document.scene().deformation().has_cage())
     workspace_.messages.complain(imports_.outline(path));
-  else if (kind == ".svg" && document.image())
+  else if (is_path && document.image())
     workspace_.messages.complain(imports_.svg(path, false));
-  else if (kind == ".obj" && document.image())
+  else if (is_surface && document.image())
     workspace_.messages.complain(
         path.filename().string() +
         ": a surface needs a picture with a cage. Make a cage, then drop the surface again.");
@@ -224,7 +226,7 @@ void Files::ask_where(const Path& path) {
   Question question{"Dropped file", short_name(path.filename()), {}};
   question.answers.push_back(
       {"Add as a layer", [this, path] { workspace_.messages.complain(imports_.add_layer(path)); }});
-  if (!is_scene_name(path))
+  if (!is_named_as(path, Content::scene))
     question.answers.push_back({"Replace this layer's picture", [this, path] {
                                   workspace_.messages.complain(imports_.replace_picture(path));
                                 }});
@@ -317,9 +319,9 @@ void Files::save(bool as, const Then& then) {
     start =
         in_document_folder(document, dialog_, document.first_picture().stem().string() + ".json");
   if (start.empty()) start = "scene.json";
-  dialog_.ask(
-      {FileQuestion::Mode::save, "Save scene", "Save", {".json", ".holomorph"}, start, false},
-      [this, then](const Path& path, double) { return save_to(path, then); });
+  dialog_.ask({FileQuestion::Mode::save, "Save scene", "Save", extensions_of({Content::scene}),
+               start, false},
+              [this, then](const Path& path, double) { return save_to(path, then); });
 }
 
 void Files::autosave() {
@@ -355,7 +357,7 @@ void Files::answer(Request request) {
     case Request::open:
       ask_about_changes_then([this] {
         dialog_.ask_open("Open a picture or scene", "Open",
-                         and_pictures({".json", ".holomorph", ".obj"}),
+                         extensions_of({Content::scene, Content::picture, Content::surface}),
                          [this](const Path& path) { return open(path); });
       });
       break;

@@ -9,24 +9,19 @@
 #include "core/error.h"
 #include "edit/tools/layer_drag.h"
 #include "edit/tools/tool.h"
+#include "scene/formats/file_kinds.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/svg_path.h"
 
 namespace holomorph {
-
-std::vector<std::string> and_pictures(std::vector<std::string> kinds) {
-  const std::vector<std::string>& pictures = picture_extensions();
-  kinds.insert(kinds.end(), pictures.begin(), pictures.end());
-  return kinds;
-}
 
 std::string Imports::add_layer(const Path& path) {
   const auto added = std::make_shared<LoadedScene>();
   return jobs_.run(
       "Reading " + path.filename().string(),
       [added, path, reach = reach_(), open = open_pixels()](Job::Progress&) {
-        *added = is_scene_name(path) ? load_scene(path, {true, reach, open})
-                                     : scene_of_image(path, open);
+        *added = is_named_as(path, Content::scene) ? load_scene(path, {true, reach, open})
+                                                   : scene_of_image(path, open);
       },
       [this, added, path] {
         chosen_(path);
@@ -112,7 +107,8 @@ void Imports::ask_find_picture() {
   const std::vector<size_t> missing = document.layers_without_picture();
   if (missing.empty()) return;
   const std::string asked = document.scene().layers[missing.front()]->image->file;
-  chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Choose", and_pictures({}),
+  chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Choose",
+                    extensions_of({Content::picture}),
                     [this, asked](const Path& path) { return find_picture(path, asked); });
 }
 
@@ -162,7 +158,8 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
 }
 
 void Imports::ask_svg(bool pose) {
-  chooser_.ask_open(pose ? "Posed cage from SVG" : "Cage from SVG", "Open", {".svg"},
+  chooser_.ask_open(pose ? "Posed cage from SVG" : "Cage from SVG", "Open",
+                    extensions_of({Content::path}),
                     [this, pose](const Path& path) { return svg(path, pose); });
 }
 
@@ -221,16 +218,17 @@ void Imports::answer(Request request) {
       ask_svg(true);
       break;
     case Request::import_outline:
-      chooser_.ask_open("Outline from SVG, picture or OBJ", "Open", and_pictures({".svg", ".obj"}),
+      chooser_.ask_open("Outline from SVG, picture or OBJ", "Open",
+                        extensions_of({Content::path, Content::surface, Content::picture}),
                         [this](const Path& path) { return outline(path); });
       break;
     case Request::add_layer:
       chooser_.ask_open("Add a picture, or the layers of a scene", "Add",
-                        and_pictures({".json", ".holomorph"}),
+                        extensions_of({Content::scene, Content::picture}),
                         [this](const Path& path) { return add_layer(path); });
       break;
     case Request::replace_picture:
-      chooser_.ask_open("Replace picture", "Replace", and_pictures({}),
+      chooser_.ask_open("Replace picture", "Replace", extensions_of({Content::picture}),
                         [this](const Path& path) { return replace_picture(path); });
       break;
     case Request::find_picture:

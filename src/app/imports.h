@@ -6,9 +6,6 @@
 
 namespace holomorph {
 
-/// Appends the extensions of pictures to a list of extensions.
-std::vector<std::string> and_pictures(std::vector<std::string> kinds);
-
 class Imports {
  public:
   /// `reach` returns which files scenes may read. `chosen` is called with each file that the user

@@ -17,10 +17,10 @@ struct PartsState {
   bool settling = false;         ///< the view will move in the next frame
   bool pending = false;          ///< input events are queued for later frames
   int taken = 0;                 ///< presses and releases of keys and buttons handled so far
-  std::pair<double, double> pointer;  ///< position of the pointer in the last frame
-  bool asking = false;                ///< a dialog has the keyboard focus
-  std::string question = {};          ///< title of the question dialog about files
-  bool in_panel = false;              ///< a panel has the keyboard focus
+  std::pair<double, double> pointer = {};  ///< position of the pointer in the last frame
+  bool asking = false;                     ///< a dialog has the keyboard focus
+  std::string question = {};               ///< title of the question dialog about files
+  bool in_panel = false;                   ///< a panel has the keyboard focus
   Theme theme = Theme::dark;
   double scale = 1;                            ///< scale of the interface
   bool exporting = false;                      ///< a job, such as an export, is running

@@ -6,7 +6,7 @@
 
 #include "raster/picture.h"
 #include "scene/document.h"
-#include "system/text.h"
+#include "scene/formats/file_kinds.h"
 
 namespace holomorph {
 namespace {
@@ -14,12 +14,8 @@ namespace {
 constexpr int kLongestSide = 256;
 constexpr size_t kMostThumbnails = 300, kMostWaiting = 200;
 
-bool is_scene(const Path& file) {
-  return lower_case(file.extension().string()) == ".json";
-}
-
 Image thumbnail_of_file(const Path& file) {
-  if (!is_scene(file))
+  if (!is_named_as(file, Content::scene))
     return reduced(decode_image(read_file(file), file.filename().string()), kLongestSide);
   const LoadedScene loaded = load_scene(file);
   PictureOptions options;
@@ -62,9 +58,7 @@ Image reduced(const Image& picture, int longest) {
 }
 
 bool Thumbnails::can_show(const Path& file) {
-  const std::string extension = lower_case(file.extension().string());
-  return is_scene(file) ||
-         std::ranges::find(picture_extensions(), extension) != picture_extensions().end();
+  return is_named_as(file, Content::scene) || is_named_as(file, Content::picture);
 }
 
 const Texture* Thumbnails::of_file(const Path& file) {

@@ -13,12 +13,12 @@
 #include "scene/auto_cage.h"
 #include "scene/content_parts.h"
 #include "scene/flattened_surface.h"
+#include "scene/formats/file_kinds.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/scene_json.h"
 #include "scene/formats/surface_file.h"
 #include "scene/formats/svg_path.h"
 #include "system/new_file.h"
-#include "system/text.h"
 
 namespace holomorph {
 namespace {
@@ -26,7 +26,7 @@ namespace {
 /// Reads a cage from a path in an SVG file or from the boundary of a surface's texture coordinates.
 Cage cage_of_file(const Path& path, const Image& picture) {
   const std::string text = read_file(path);
-  if (lower_case(path.extension().string()) != ".obj")
+  if (!is_named_as(path, Content::surface))
     return cage_of_svg(text, path.string(), picture.height, PathUse::rest);
   try {
     return polygon_cage(

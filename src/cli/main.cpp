@@ -5,6 +5,7 @@
 
 #include "app/editor.h"
 #include "cli/commands.h"
+#include "cli/formats.h"
 #include "cli/progress.h"
 #include "core/error.h"
 #include "scene/budget.h"
@@ -32,6 +33,7 @@ struct CommandLine {
   NewCommand new_scene;
   ExportCommand exported;
   BenchCommand bench;
+  FormatsCommand formats;
   Budget budget;
   bool done = false;  ///< a command has run
 
@@ -49,6 +51,7 @@ struct CommandLine {
   void add_new(CLI::App& app);
   void add_export(CLI::App& app);
   void add_bench(CLI::App& app);
+  void add_formats(CLI::App& app);
 };
 
 void CommandLine::add_budget(CLI::App* sub) {
@@ -225,9 +228,7 @@ void CommandLine::add_export(CLI::App& app) {
   auto* sub = add(app, "export", "Write the posed scene in another format", exported);
   add_scene(sub, exported);
   sub->add_option("--format", exported.format,
-                  "obj, svg, npy, png, stmap, unwarp-map, unwarp or textured; for films webp, gif, "
-                  "apng, mp4 "
-                  "or webm")
+                  export_format_names() + "; 'holomorph formats' says more")
       ->required();
   sub->add_option(
       "--scale", exported.scale,
@@ -235,15 +236,21 @@ void CommandLine::add_export(CLI::App& app) {
   sub->add_option("--overscan", exported.overscan,
                   "Pixels beyond each side of the picture; for stmap and unwarp-map")
       ->check(CLI::Range(0, 8192));
-  sub->add_flag("--half", exported.half,
-                "Write half floats instead of single ones, for OpenEXR files; they are precise to "
-                "half a pixel of 2000");
+  sub->add_flag(
+      "--half", exported.half,
+      "Write half floats instead of single ones, for OpenEXR files; precise to half a pixel "
+      "in a picture 2000 pixels wide");
   sub->add_option("--out", exported.out, "File to write")->required();
   add_rectangle(
       sub, exported.rectangle,
       sub->add_flag("--crop", exported.crop, "Crop to the picture's rectangle; for png and films"));
   add_moments(sub, exported.moments, "; for png, ST-maps and films");
   add_force(sub, exported.force);
+}
+
+void CommandLine::add_formats(CLI::App& app) {
+  auto* sub = add(app, "formats", "List which files can be opened and written", formats);
+  sub->add_flag("--markdown", formats.markdown, "Print the first table as Markdown");
 }
 
 void CommandLine::add_bench(CLI::App& app) {
@@ -273,6 +280,7 @@ void CommandLine::add_to(CLI::App& app) {
   add_info(app);
   add_new(app);
   add_export(app);
+  add_formats(app);
   add_bench(app);
 }
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/formats.h"
 #include "cli/progress.h"
 #include "cli/st_maps.h"
 #include "cli/streams.h"
@@ -66,10 +67,9 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
                numbered(command.out, range.last).c_str(), shared.c_str());
 }
 
-bool is_film(const std::string& format) {
-  return format != "png" && std::ranges::any_of(film_formats(), [&](const FilmFormat& known) {
-           return known.extension == "." + format;
-         });
+/// Whether a format is a film in one file.
+bool is_film(const ExportFormat& format) {
+  return format.frames && !format.time;
 }
 
 void export_film(const LoadedScene& loaded, const ExportCommand& command) {
@@ -147,34 +147,9 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 
-/// A format of `export` and the options that it accepts.
-struct Format {
-  std::string id;
-  bool scale = false, crop = false, time = false, frames = false, overscan = false;
-};
-const Format& format_named(const std::string& id) {
-  static const std::vector<Format> formats{
-      {.id = "obj", .time = true},
-      {.id = "svg", .time = true},
-      {.id = "npy", .time = true},
-      {.id = "png", .scale = true, .crop = true, .time = true, .frames = true},
-      {.id = "stmap", .scale = true, .time = true, .frames = true, .overscan = true},
-      {.id = "unwarp-map", .scale = true, .time = true, .frames = true, .overscan = true},
-      {.id = "unwarp", .scale = true, .time = true},
-      {.id = "textured", .scale = true}};
-  static const Format film{.id = "film", .scale = true, .crop = true, .frames = true};
-  if (is_film(id)) return film;
-  const auto found = std::ranges::find(formats, id, &Format::id);
-  if (found != formats.end()) return *found;
-  throw Error(ErrorKind::bad_input,
-              "unknown format '" + id +
-                  "'; choose one of: obj, svg, npy, png, stmap, unwarp-map, unwarp, textured, "
-                  "webp, gif, apng, mp4, webm");
-}
-
 /// Throws Error for options that the format does not support.
 void check_options(const ExportCommand& command) {
-  const Format& format = format_named(command.format);
+  const ExportFormat& format = export_format_named(command.format);
   const auto throw_unsupported = [&](const std::string& option, const std::string& why) {
     throw Error(ErrorKind::bad_input,
                 option + " cannot be used with " + command.format + ": " + why);
@@ -184,9 +159,9 @@ void check_options(const ExportCommand& command) {
     throw_unsupported("--crop", "only png and films can be cropped");
   if (command.rectangle && !format.crop)
     throw_unsupported("--rect", "only png and films have a rectangle");
-  if (command.overscan && !format.overscan)
+  if (command.overscan && !format.st_map)
     throw_unsupported("--overscan", "only stmap and unwarp-map extend beyond the picture");
-  if (command.half && !format.overscan)
+  if (command.half && !format.st_map)
     throw_unsupported("--half", "only stmap and unwarp-map are written as OpenEXR");
   if (command.moments.frames && !format.frames)
     throw_unsupported("--frames", format.time ? "it shows a single moment; use --time"
@@ -242,10 +217,11 @@ void run(const ExportCommand& command) {
                              command.moments});
   const LoadedScene loaded = read_scene(command);
   if (command.moments.any()) require_keyframes(loaded.scene, command.scene);
-  if (format_named(format).overscan) return export_st_maps(loaded, command);
+  const ExportFormat& known = export_format_named(format);
+  if (known.st_map) return export_st_maps(loaded, command);
   check_out(command.out, command.force, command.scene, loaded);
   if (format == "textured") return export_textured(loaded, command);
-  if (is_film(format)) return export_film(loaded, command);
+  if (is_film(known)) return export_film(loaded, command);
   const std::string bytes = exported(loaded, command);
   write_result(command.out, bytes);
   std::fprintf(stderr, "%s: %zu bytes\n", shown_output(command.out).c_str(), bytes.size());

@@ -1,4 +1,7 @@
+// Checks first, then prepares the map, so that mistakes are reported at once.
 #include "cli/st_maps.h"
+
+#include <cstdio>
 
 #include "cli/progress.h"
 #include "cli/streams.h"
@@ -11,11 +14,10 @@
 namespace holomorph {
 namespace {
 
-/// Throws Error for other files than OpenEXR and NumPy.
+/// Whether the name selects OpenEXR instead of NumPy. Throws Error for other extensions.
 bool is_exr(const Path& out) {
-  if (is_standard(out)) return false;
   const std::string extension = lower_case(out.extension().string());
-  if (extension != ".exr" && extension != ".npy")
+  if (!extension.empty() && extension != ".exr" && extension != ".npy")
     throw Error(ErrorKind::bad_input,
                 out.string() +
                     ": an ST-map is an OpenEXR or NumPy file; end the name with .exr or "
@@ -23,43 +25,36 @@ bool is_exr(const Path& out) {
   return extension == ".exr";
 }
 
-std::string encoded(StMap map, bool exr, bool half) {
-  if (!exr)
+std::string encoded(StMap map, const ExportCommand& command) {
+  if (!is_exr(command.out))
     return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
   extend(map);
-  return exr_of(float_image_of(map), half ? FloatBits::half : FloatBits::single);
+  return exr_of(float_image_of(std::move(map)), command.half ? FloatBits::half : FloatBits::single);
 }
 
 std::string size_text(const StMap& map) {
   return std::to_string(map.width) + " x " + std::to_string(map.height) + " pixels";
 }
 
-}  // namespace
-
-void export_st_maps(const LoadedScene& loaded, const ExportCommand& command) {
-  require_cage(loaded.scene, command.scene);
-  const bool exr = is_exr(command.out);
-  if (command.half && !exr)
-    throw Error(ErrorKind::bad_input, "--half needs an OpenEXR file; end the name with .exr");
-  const Image none, &picture = loaded.image() ? *loaded.image() : none;
-  StMapOptions options{command.format == "unwarp-map", command.scale.value_or(1),
-                       command.overscan.value_or(0), command.moments.time};
-  check_map_size(options.scale, picture.width, picture.height, options.overscan);
-  const auto made = [&](TimedMap& map, const RowProgress& progress) {
-    return st_map_of(map, picture, options, progress);
-  };
-  TimedMap map(loaded.scene);
-  if (!command.moments.frames) {
-    check_out(command.out, command.force, command.scene, loaded);
+void export_one(const LoadedScene& loaded, const ExportCommand& command, const Image& picture,
+                const StMapOptions& options) {
+  check_out(command.out, command.force, command.scene, loaded);
+  std::string size, bytes;
+  {
     Progress progress("export", "row");
-    StMap whole = made(map, [&](int done, int all) {
+    TimedMap map(loaded.scene);
+    StMap made = st_map_of(map, picture, options, [&](int done, int all) {
       progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
     });
-    const std::string size = size_text(whole);
-    write_result(command.out, encoded(std::move(whole), exr, command.half));
-    std::fprintf(stderr, "%s: %s\n", shown_output(command.out).c_str(), size.c_str());
-    return;
+    size = size_text(made);
+    bytes = encoded(std::move(made), command);
   }
+  write_result(command.out, bytes);
+  std::fprintf(stderr, "%s: %s\n", shown_output(command.out).c_str(), size.c_str());
+}
+
+void export_frames(const LoadedScene& loaded, const ExportCommand& command, const Image& picture,
+                   StMapOptions options) {
   if (is_standard(command.out))
     throw Error(ErrorKind::bad_input,
                 "each frame is a file of its own; give a file name with --out");
@@ -67,20 +62,39 @@ void export_st_maps(const LoadedScene& loaded, const ExportCommand& command) {
   for (int i = range.first; i <= range.last; ++i)
     check_out(numbered(command.out, i), command.force, command.scene, loaded);
   const DeferredStop tidy;
-  Progress progress("export", "frame");
   const size_t count = static_cast<size_t>(range.last - range.first + 1);
   std::string size;
-  for (size_t k = 0; k < count; ++k) {
-    progress.step(k, count);
-    const int frame = range.first + static_cast<int>(k);
-    options.time = frame / loaded.scene.animation.frames_per_second;
-    StMap one = made(map, [](int, int) { stop_if_interrupted(); });
-    size = size_text(one);
-    write_file(numbered(command.out, frame), encoded(std::move(one), exr, command.half));
+  {
+    Progress progress("export", "frame");
+    TimedMap map(loaded.scene);
+    for (size_t k = 0; k < count; ++k) {
+      progress.step(k, count);
+      const int frame = range.first + static_cast<int>(k);
+      options.time = frame / loaded.scene.animation.frames_per_second;
+      StMap made = st_map_of(map, picture, options, [](int, int) { stop_if_interrupted(); });
+      size = size_text(made);
+      write_file(numbered(command.out, frame), encoded(std::move(made), command));
+    }
   }
   std::fprintf(stderr, "%zu ST-maps of %s: %s to %s\n", count, size.c_str(),
                numbered(command.out, range.first).c_str(),
                numbered(command.out, range.last).c_str());
+}
+
+}  // namespace
+
+void export_st_maps(const LoadedScene& loaded, const ExportCommand& command) {
+  require_cage(loaded.scene, command.scene);
+  if (command.half && !is_exr(command.out))
+    throw Error(ErrorKind::bad_input, "--half needs an OpenEXR file; end the name with .exr");
+  const Image none, &picture = loaded.image() ? *loaded.image() : none;
+  const StMapOptions options{command.format == "unwarp-map", command.scale.value_or(1),
+                             command.overscan.value_or(0), command.moments.time};
+  check_map_size(options.scale, picture.width, picture.height, options.overscan);
+  if (command.moments.frames)
+    export_frames(loaded, command, picture, options);
+  else
+    export_one(loaded, command, picture, options);
 }
 
 }  // namespace holomorph

@@ -7,7 +7,8 @@
 namespace holomorph {
 
 /// Writes one ST-map, or with --frames a numbered file for each frame. The name of the file decides
-/// between OpenEXR and NumPy; standard output gets NumPy. Throws Error.
+/// between OpenEXR and NumPy; names without an extension and standard output get NumPy. Throws
+/// Error.
 void export_st_maps(const LoadedScene& loaded, const ExportCommand& command);
 
 }  // namespace holomorph

@@ -1,3 +1,4 @@
+// Copies colors from the nearest covered pixels.
 #include "raster/bleed.h"
 
 #include <cmath>
@@ -15,7 +16,7 @@ void bleed(Image& image, const std::vector<bool>& covered, double reach,
   const NearestCovered nearest(image.width, image.height, covered);
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c) {
-      const PixelPlace from = nearest.at(c, r);
+      const PixelIndex from = nearest.at(c, r);
       if (from.column < 0) continue;
       const double distance = std::hypot(c - from.column, r - from.row);
       if (!(distance > 0 && distance <= reach)) continue;

@@ -7,7 +7,7 @@
 namespace holomorph {
 namespace {
 
-std::int64_t squared_distance(int column, int row, PixelPlace from) {
+std::int64_t squared_distance(int column, int row, PixelIndex from) {
   if (from.column < 0) return std::numeric_limits<std::int64_t>::max();
   const std::int64_t across = column - from.column, down = row - from.row;
   return across * across + down * down;
@@ -39,7 +39,7 @@ NearestCovered::NearestCovered(int width, int height, const std::vector<bool>& c
 void NearestCovered::propagate(int column, int row, int across, int down) {
   const int c = column + across, r = row + down;
   if (c < 0 || c >= width_ || r < 0 || r >= height_) return;
-  const PixelPlace candidate = at(c, r);
+  const PixelIndex candidate = at(c, r);
   if (squared_distance(column, row, candidate) < squared_distance(column, row, at(column, row)))
     found_[index(column, row)] = candidate;
 }

@@ -7,7 +7,7 @@
 namespace holomorph {
 
 /// A pixel's column and row.
-struct PixelPlace {
+struct PixelIndex {
   int column = -1, row = -1;  ///< negative: none
 };
 
@@ -19,7 +19,7 @@ class NearestCovered {
   NearestCovered(int width, int height, const std::vector<bool>& covered);
 
   /// The nearest covered pixel; none if no pixel is covered. A covered pixel is its own nearest.
-  PixelPlace at(int column, int row) const { return found_[index(column, row)]; }
+  PixelIndex at(int column, int row) const { return found_[index(column, row)]; }
 
  private:
   size_t index(int column, int row) const {
@@ -28,7 +28,7 @@ class NearestCovered {
   void propagate(int column, int row, int across, int down);
 
   int width_, height_;
-  std::vector<PixelPlace> found_;
+  std::vector<PixelIndex> found_;
 };
 
 }  // namespace holomorph

@@ -31,7 +31,11 @@ std::vector<std::vector<int>> banded(const DrawnMesh& mesh, int height) {
     double low = 1e300, high = -1e300;
     bool is_finite = true;
     for (const int v : mesh.triangles[t]) {
-      is_finite = is_finite && holomorph::is_finite(mesh.at[static_cast<size_t>(v)]);
+      const size_t corner = static_cast<size_t>(v);
+      is_finite = is_finite && holomorph::is_finite(mesh.at[corner]);
+      if (!mesh.values.empty())
+        for (const double value : mesh.values[corner])
+          is_finite = is_finite && std::isfinite(value);
       low = std::min(low, mesh.at[static_cast<size_t>(v)].imag());
       high = std::max(high, mesh.at[static_cast<size_t>(v)].imag());
     }
@@ -189,7 +193,7 @@ class StMapDrawing {
         if (is_same)
           std::memset(at(r, from), triangle.erases() ? 0 : 1, static_cast<size_t>(to - from));
         else
-          for (int c = from; c < to; ++c) *at(r, c) = is_sample_inside(triangle, r, c);
+          for (int c = from; c < to; ++c) *at(r, c) |= is_sample_inside(triangle, r, c);
       });
     });
     constexpr float kShare = 1.0f / (kSamples * kSamples);
@@ -242,8 +246,8 @@ void check_map_size(double scale, int width, int height, int overscan) {
     throw Error(ErrorKind::bad_input, "the scene has no picture to map");
   if (!(scale > 0) || overscan < 0 || !(std::max(width, height) * scale + 2.0 * overscan <= kMost))
     throw Error(ErrorKind::bad_input,
-                "the scale and the overscan must be positive and give at most 16384 pixels on a "
-                "side");
+                "the scale must be above 0, and the result at most 16384 pixels on a side, "
+                "including the overscan");
 }
 
 StMap st_map_of(TimedMap& map, const Image& picture, const StMapOptions& options,
@@ -272,12 +276,11 @@ StMap st_map_of(TimedMap& map, const Image& picture, const StMapOptions& options
     drawn.values.push_back({z.real() / width, z.imag() / height});
   // What leaves its position shows nothing. The fine mesh follows curves, but lacks the triangles
   // with images that are not finite.
-  StMapDrawing(result,
-               {{map.mesh().triangles, placed(map.mesh().vertices), {}},
-                {fine.mesh.triangles, placed(rest), {}},
-                std::move(drawn)},
-               options.unwarps ? nullptr : &picture)
-      .draw(progress);
+  std::vector<DrawnMesh> meshes;
+  meshes.push_back({map.mesh().triangles, placed(map.mesh().vertices), {}});
+  meshes.push_back({fine.mesh.triangles, placed(rest), {}});
+  meshes.push_back(std::move(drawn));
+  StMapDrawing(result, std::move(meshes), options.unwarps ? nullptr : &picture).draw(progress);
   return result;
 }
 
@@ -287,11 +290,12 @@ void extend(StMap& map) {
                         static_cast<size_t>(column))];
   };
   std::vector<bool> shows(map.coverage.size());
-  for (size_t i = 0; i < shows.size(); ++i) shows[i] = !std::isnan(map.st[2 * i]);
+  for (size_t i = 0; i < shows.size(); ++i)
+    shows[i] = std::isfinite(map.st[2 * i]) && std::isfinite(map.st[2 * i + 1]);
   const NearestCovered nearest(map.width, map.height, shows);
   for (int r = 0; r < map.height; ++r)
     for (int c = 0; c < map.width; ++c) {
-      const PixelPlace from = nearest.at(c, r);
+      const PixelIndex from = nearest.at(c, r);
       if (from.column < 0)
         std::fill_n(at(r, c), 2, 0.0f);  // the picture shows nothing anywhere
       else
@@ -299,7 +303,7 @@ void extend(StMap& map) {
     }
 }
 
-FloatImage float_image_of(const StMap& map) {
+FloatImage float_image_of(StMap map) {
   FloatImage image{map.width, map.height, map.overscan, {}};
   image.pixels.reserve(4 * map.coverage.size());
   for (size_t i = 0; i < map.coverage.size(); ++i)

@@ -25,14 +25,14 @@ struct StMapOptions {
 struct StMap {
   int width = 0, height = 0;  ///< including the overscan
   int overscan = 0;
-  std::vector<float> st;        ///< height x width x 2, row by row; NaN where nothing is shown
+  std::vector<float> st;        ///< height x width x 2; NaN where the picture has moved away
   std::vector<float> coverage;  ///< height x width; see st_map_of
 };
 
-/// What ST-maps and unwarped pictures promise: the map of a position that they use is within this
-/// distance, in pixels of the result, of the pixel's center, up to the rounding of single
-/// precision. Not at points where a map's derivative is infinite, such as sharp corners of angle
-/// maps.
+/// What ST-maps and unwarped pictures promise, in pixels of the result and up to the rounding of
+/// single precision: the map takes each position to within this distance of the pixel's center or,
+/// if the ST-map unwarps, each position is this close to the image of the pixel's center. Not at
+/// points where a map's derivative is infinite, such as sharp corners of angle maps.
 inline constexpr double kStAccuracy = 0.01;
 
 using RowProgress = std::function<void(int done, int all)>;
@@ -42,23 +42,22 @@ using RowProgress = std::function<void(int done, int all)>;
 /// more opaque. Outside the cage nothing moves. `coverage` is the share of each pixel that shows
 /// points of the picture's rectangle, in 16ths. Calls `progress` on the calling thread with the
 /// number of rows that have been started and the number of all rows. An exception from `progress`
-/// ends the computation and is rethrown. Throws Error if the picture is empty, or if a side of the
-/// ST-map would have no or more than 16384 pixels. Cost: the linear pieces of the map, and about 20
-/// ns per pixel.
+/// ends the computation and is rethrown. Throws the errors of check_map_size. Cost: the linear
+/// pieces of the map, and about 20 ns per pixel.
 StMap st_map_of(
     TimedMap& map, const Image& picture, const StMapOptions& options = {},
     const RowProgress& progress = [](int, int) {});
 
-/// Gives pixels that show nothing the position of the nearest pixel that shows something, so that
-/// all positions are finite and filters near edges find no gaps. Cost: about 100 ns per pixel.
+/// Gives pixels without a position that of the nearest pixel with one, so that all positions are
+/// finite and filters near edges find no gaps. Cost: about 100 ns per pixel.
 void extend(StMap& map);
 
 /// The usual order of channels in compositing programs: s is red, t is green, coverage is alpha,
 /// and blue is 0.
-FloatImage float_image_of(const StMap& map);
+FloatImage float_image_of(StMap map);
 
-/// Throws Error if a picture of this size, at this scale and with this overscan, has a side of no
-/// or more than 16384 pixels.
+/// Throws Error if the picture is empty, the scale is not above 0, the overscan is negative, or the
+/// result has more than 16384 pixels on a side.
 void check_map_size(double scale, int width, int height, int overscan = 0);
 
 }  // namespace holomorph

@@ -4,11 +4,11 @@
 #include <random>
 
 #include "core/error.h"
+#include "scene/formats/file_kinds.h"
 #include "scene/formats/scene_json.h"
 #include "scene/preferences.h"
 #include "scene/recovery.h"
 #include "system/new_file.h"
-#include "system/text.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;
@@ -35,9 +35,9 @@ Document::Document(LoadedScene loaded, Path path)
       stamp_{{}, std::move(loaded.sha256)} {}
 
 Document Document::open(const Path& path, const Reach& reach) {
-  const std::string kind = lower_case(path.extension().string());
-  if (is_scene_name(path)) return {load_scene(path, {true, reach}), absolute_path(path)};
-  if (kind == ".obj") return {scene_of_surface(path, reach), Path()};
+  if (is_named_as(path, Content::scene))
+    return {load_scene(path, {true, reach}), absolute_path(path)};
+  if (is_named_as(path, Content::surface)) return {scene_of_surface(path, reach), Path()};
   return {scene_of_image(path), Path()};
 }
 

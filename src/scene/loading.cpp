@@ -263,11 +263,6 @@ LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
   return loaded;
 }
 
-bool is_scene_name(const Path& path) {
-  const std::string kind = lower_case(path.extension().string());
-  return kind == ".json" || kind == ".holomorph";
-}
-
 Scene portable(Scene scene, const Path& folder) {
   std::vector<Layer> layers = layers_of(scene);
   for_each_file(layers, [&](std::string& file) { file = relative_to(folder, file); });

@@ -33,8 +33,6 @@ LoadedScene load_scene(const Path& path, const LoadOptions& options = {});
 /// Reads a scene from the given text instead of the file's content.
 LoadedScene scene_of_text(const std::string& text, const Path& path,
                           const LoadOptions& options = {});
-/// Whether a path has a scene's extension, .json or .holomorph. Desktops recognize the latter.
-bool is_scene_name(const Path& path);
 
 /// The scene of a pasted picture, which is stored in pasted_folder(). Saving a scene places copies
 /// of such pictures next to the scene file. Throws Error.

@@ -128,7 +128,7 @@ class StMapTest(Case):
                          self.path("st.exr")).stderr
         self.assertIn("3 ST-maps", said)
         with open(scene) as file:
-            rate = json.load(file).get("animation", {}).get("framesPerSecond", 24)
+            rate = json.load(file).get("animation", {}).get("frames_per_second", 24)
         for frame in (3, 4, 5):
             one = self.export(scene, "one.exr", "--format", "stmap", "--time", frame / rate, "--scale", 0.25)
             self.assertTrue((self.channels(one, "RGA") == self.channels(self.path(f"st-000{frame}.exr"), "RGA")).all())
@@ -143,6 +143,8 @@ class StMapTest(Case):
         self.bad("export", scene, "--format", "stmap", "--out", self.path("st.exr"), "--overscan", -1, says="overscan")
         self.bad("export", scene, "--format", "stmap", "--out", self.path("st.exr"), "--scale", 100, says="16384")
         self.bad("export", scene, "--format", "stmap", "--frames", "all", "--out", "-", says="keyframes")
+        fern = os.path.join(ASSETS, "fern.json")
+        self.bad("export", fern, "--format", "stmap", "--frames", "all", "--out", "-", says="each frame is a file")
         self.assertEqual(os.listdir(self.folder), [])
 
 

@@ -40,12 +40,12 @@ Scene moved_star(const char* method, unsigned seed) {
   return scene_of(deformation);
 }
 
-size_t place(const StMap& map, int column, int row) {
+size_t index_of(const StMap& map, int column, int row) {
   return static_cast<size_t>(row) * static_cast<size_t>(map.width) + static_cast<size_t>(column);
 }
 
 Complex entry(const StMap& map, int column, int row) {
-  const size_t i = 2 * place(map, column, row);
+  const size_t i = 2 * index_of(map, column, row);
   return {kSide * static_cast<double>(map.st[i]), kSide * static_cast<double>(map.st[i + 1])};
 }
 
@@ -78,8 +78,17 @@ TEST_CASE("An overscan adds pixels and changes none") {
 }
 
 TEST_CASE("Coverage is the opacity with which a white picture is drawn") {
-  for (const unsigned seed : seeds_of("coverage", {4})) {
-    const Scene scene = moved_star("cage", seed);
+  // A bar beyond the right edge of the picture is bent until what shows nothing lies on top.
+  Deformation bar = with_cage(
+      Deformation{}, Points{{20, 100}, {200, 100}, {380, 100}, {380, 140}, {200, 140}, {20, 140}});
+  bar.method = "arap";
+  bar.pins = {{{40, 120}, {60, 115}, {}, {}},
+              {{200, 120}, {200, 120}, {}, {}},
+              {{360, 120}, {60, 125}, {}, {}}};
+  bar.pins[2].depth = 1;
+  std::vector<Scene> scenes{scene_of(bar)};
+  for (const unsigned seed : seeds_of("coverage", {4})) scenes.push_back(moved_star("cage", seed));
+  for (const Scene& scene : scenes) {
     TimedMap timed(scene);
     const Image picture = opaque_picture();
     const int over = 60;
@@ -92,17 +101,19 @@ TEST_CASE("Coverage is the opacity with which a white picture is drawn") {
     job.region = Box{-over, -over, kSide + over, kSide + over};
     const Image drawn = rasterized(job).image;
     REQUIRE(drawn.width == map.width);
-    double sum = 0, worst = 0;
+    // Both count 4 x 4 samples. At the picture's edge, drawing also interpolates its opacity, by at
+    // most a half, and only in a small part of the 130,000 pixels.
+    int other = 0;
+    double worst = 0;
     for (int r = 0; r < map.height; ++r)
       for (int c = 0; c < map.width; ++c) {
-        const double off = std::abs(static_cast<double>(map.coverage[place(map, c, r)]) -
+        const double off = std::abs(static_cast<double>(map.coverage[index_of(map, c, r)]) -
                                     drawn.at(c, r)[3] / 255.0);
         worst = std::max(worst, off);
-        sum += off;
+        other += off > 0.1;
       }
-    INFO("seed " << seed << ", worst " << worst << ", mean " << sum / (map.width * map.height));
-    CHECK(worst <= 0.5);
-    CHECK(sum / (map.width * map.height) < 1e-3);
+    CHECK(worst <= 0.51);
+    CHECK(other < 600);
   }
 }
 
@@ -127,7 +138,7 @@ TEST_CASE("An unwarping ST-map holds the images of the pixels at rest") {
           }
           const bool shows =
               st.real() >= 0 && st.real() <= kSide && st.imag() >= 0 && st.imag() <= kSide;
-          const float coverage = map.coverage[place(map, c, r)];
+          const float coverage = map.coverage[index_of(map, c, r)];
           if (coverage == 0 || coverage == 1) REQUIRE(shows == (coverage == 1));
         }
       REQUIRE(inside.size() > 100);

@@ -13,6 +13,7 @@
 #include "app/look/surfaces.h"
 #include "app/panels/panels.h"
 #include "edit/content.h"
+#include "scene/formats/file_kinds.h"
 #include "system/new_file.h"
 
 namespace holomorph {
@@ -41,7 +42,7 @@ std::vector<Format> formats(bool plays) {
 /// a dot is a part of the name.
 bool is_known_extension(const std::string& extension) {
   const auto is = [&](const std::string& each) { return each == extension; };
-  return std::ranges::any_of(picture_extensions(), is) ||
+  return std::ranges::any_of(extensions_of({Content::picture}), is) ||
          std::ranges::any_of(film_formats(), is, &FilmFormat::extension);
 }
 

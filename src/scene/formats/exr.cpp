@@ -1,3 +1,4 @@
+// Writes OpenEXR files into memory with the library OpenEXR, so that files appear as a whole.
 #include "scene/formats/exr.h"
 
 #include <ImfChannelList.h>
@@ -73,6 +74,8 @@ std::string exr_of(const FloatImage& image, FloatBits bits) {
       file.writePixels(image.height);
     }
     return stream.take();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw Error(ErrorKind::failed, std::string("OpenEXR: ") + error.what());
   }

@@ -31,12 +31,6 @@ void PixelBudget::take(size_t width, size_t height, const std::string& name, dou
   taken_ += pixels;
 }
 
-const std::vector<std::string>& picture_extensions() {
-  static const std::vector<std::string> all{".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff",
-                                            ".bmp", ".tga", ".gif",  ".psd",  ".ora"};
-  return all;
-}
-
 int orientation_of_exif(const std::string& bytes) {
   const std::unique_ptr<ExifData, void (*)(ExifData*)> data(
       exif_data_new_from_data(reinterpret_cast<const unsigned char*>(bytes.data()),

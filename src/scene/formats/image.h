@@ -52,9 +52,6 @@ inline Image decode_image(const std::string& bytes, const std::string& name) {
   return decode_image(bytes, name, alone);
 }
 
-/// The extensions of the files that decode_image can read, in lower case and with the dot.
-const std::vector<std::string>& picture_extensions();
-
 /// Whether no pixel is transparent, not even partly.
 bool is_opaque(const Image& image);
 

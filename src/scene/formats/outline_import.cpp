@@ -5,8 +5,8 @@
 #include "core/outline/outline_match.h"
 #include "scene/auto_cage.h"
 #include "scene/flattened_surface.h"
+#include "scene/formats/file_kinds.h"
 #include "scene/formats/svg_path.h"
-#include "system/text.h"
 
 namespace holomorph {
 namespace {
@@ -27,10 +27,9 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
   const std::string name = path.string(), bytes = read_file(path);
   try {
     Points outline;
-    const std::string kind = lower_case(path.extension().string());
-    if (kind == ".svg") {
+    if (is_named_as(path, Content::path)) {
       outline = flattened(cage_of_svg(bytes, name, height, PathUse::outline)).points;
-    } else if (kind == ".obj") {
+    } else if (is_named_as(path, Content::surface)) {
       outline = flattened_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
     } else {
       const Image image = decode_image(bytes, name);
@@ -40,7 +39,7 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       outline = fitted(flattened(cage).points, onto);
     }
     // The number of points identifies a surface's boundary, so it is not resampled.
-    if (kind != ".obj" && static_cast<Index>(outline.size()) > kMostPoints)
+    if (!is_named_as(path, Content::surface) && static_cast<Index>(outline.size()) > kMostPoints)
       outline = at_equal_lengths(Polyline(outline, true), kMostPoints);
     check_outline(outline);
     return outline;
@@ -50,7 +49,7 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
 }
 
 std::optional<SurfaceReference> surface_of_file(const Path& path, Flattening how) {
-  if (lower_case(path.extension().string()) != ".obj") return {};
+  if (!is_named_as(path, Content::surface)) return {};
   return SurfaceReference{absolute_path(path).string(), how};
 }
 

@@ -1,0 +1,171 @@
+// The tables of pictures, films and exports, put together by the extensions of files.
+#include "cli/formats.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/error.h"
+#include "film/film_writer.h"
+#include "scene/formats/file_kinds.h"
+#include "scene/formats/image.h"
+
+namespace holomorph {
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+std::string text_of(Content content) {
+  switch (content) {
+    case Content::scene:
+      return "a scene";
+    case Content::picture:
+      return "a picture";
+    case Content::path:
+      return "a cage or an outline";
+    case Content::surface:
+      return "a surface, a cage or an outline";
+    case Content::points:
+      return "points";
+  }
+  return "";
+}
+
+std::string options_of(const ExportFormat& format) {
+  std::vector<std::string> options;
+  if (format.scale) options.push_back("--scale");
+  if (format.crop) options.insert(options.end(), {"--crop", "--rect"});
+  if (format.time) options.push_back("--time");
+  if (format.frames) options.push_back("--frames");
+  if (format.st_map) options.insert(options.end(), {"--overscan", "--half"});
+  return joined(options, " ");
+}
+
+bool has_extension(const ExportFormat& format, const std::string& extension) {
+  return (format.files + " ").find(extension + " ") != std::string::npos;
+}
+
+/// What the program writes to files with this extension.
+std::vector<std::string> written_to(const std::string& extension) {
+  std::vector<std::string> writes;
+  const auto add = [&](const std::string& text) {
+    if (std::ranges::find(writes, text) == writes.end()) writes.push_back(text);
+  };
+  for (const PictureFormat& format : picture_formats())
+    if (format.extension == extension) add("the picture");
+  for (const ExportFormat& format : export_formats())
+    if (has_extension(format, extension)) add(format.writes);
+  return writes;
+}
+
+struct Row {
+  std::string files, opens, writes;
+};
+
+std::vector<Row> rows() {
+  std::vector<Row> rows;
+  std::vector<std::string> known;
+  for (const FileKind& kind : file_kinds()) {
+    std::vector<std::string> writes = written_to(kind.extensions[0]);
+    if (kind.content == Content::scene || kind.content == Content::points)
+      writes.push_back(text_of(kind.content));
+    rows.push_back({joined(kind.extensions, " "), text_of(kind.content), joined(writes, "; ")});
+    known.insert(known.end(), kind.extensions.begin(), kind.extensions.end());
+  }
+  for (const ExportFormat& format : export_formats()) {
+    for (size_t at = 0; at < format.files.size();) {
+      const size_t end = std::min(format.files.find(' ', at), format.files.size());
+      const std::string extension = format.files.substr(at, end - at);
+      at = end + 1;
+      if (std::ranges::find(known, extension) != known.end()) continue;
+      rows.push_back({extension, "", joined(written_to(extension), "; ")});
+      known.push_back(extension);
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+const std::vector<ExportFormat>& export_formats() {
+  static const std::vector<ExportFormat> all = [] {
+    std::vector<ExportFormat> formats{
+        {.id = "obj", .files = ".obj", .writes = "the bent mesh", .time = true},
+        {.id = "svg", .files = ".svg", .writes = "the cage", .time = true},
+        {.id = "npy", .files = ".npy", .writes = "the vertices of the mesh", .time = true},
+        {.id = "png",
+         .files = ".png",
+         .writes = "the picture",
+         .scale = true,
+         .crop = true,
+         .time = true,
+         .frames = true},
+        {.id = "stmap",
+         .files = ".exr .npy",
+         .writes = "an ST-map",
+         .scale = true,
+         .time = true,
+         .frames = true,
+         .st_map = true},
+        {.id = "unwarp-map",
+         .files = ".exr .npy",
+         .writes = "an ST-map that straightens",
+         .scale = true,
+         .time = true,
+         .frames = true,
+         .st_map = true},
+        {.id = "unwarp",
+         .files = ".png",
+         .writes = "the straightened picture",
+         .scale = true,
+         .time = true},
+        {.id = "textured",
+         .files = ".obj",
+         .writes = "the surface with the picture as its texture",
+         .scale = true}};
+    for (const FilmFormat& film : film_formats())
+      if (film.extension != ".png")
+        formats.push_back({.id = film.extension.substr(1),
+                           .files = film.extension,
+                           .writes = film.needs_ffmpeg ? "a film (needs ffmpeg)" : "a film",
+                           .scale = true,
+                           .crop = true,
+                           .frames = true});
+    return formats;
+  }();
+  return all;
+}
+
+std::string export_format_names() {
+  std::vector<std::string> names;
+  for (const ExportFormat& format : export_formats()) names.push_back(format.id);
+  return joined(names, ", ");
+}
+
+const ExportFormat& export_format_named(const std::string& id) {
+  const auto found = std::ranges::find(export_formats(), id, &ExportFormat::id);
+  if (found != export_formats().end()) return *found;
+  throw Error(ErrorKind::bad_input,
+              "unknown format '" + id + "'; choose one of: " + export_format_names());
+}
+
+void run(const FormatsCommand& command) {
+  if (command.markdown) {
+    std::puts("| files | opened as | written with |\n|---|---|---|");
+    for (const Row& row : rows())
+      std::printf("| %s | %s | %s |\n", row.files.c_str(), row.opens.c_str(), row.writes.c_str());
+    return;
+  }
+  std::printf("%-18s %-32s %s\n", "files", "opened as", "written with");
+  for (const Row& row : rows())
+    std::printf("%-18s %-32s %s\n", row.files.c_str(), row.opens.c_str(), row.writes.c_str());
+  std::printf("\n%-18s %-32s %s\n", "export --format", "files", "options");
+  for (const ExportFormat& format : export_formats())
+    std::printf("%-18s %-32s %s\n", format.id.c_str(), format.files.c_str(),
+                options_of(format).c_str());
+}
+
+}  // namespace holomorph

@@ -1,0 +1,27 @@
+// The formats of the command export, and the command formats, which lists what files can be.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace holomorph {
+
+/// A format of `export` and the options that it accepts.
+struct ExportFormat {
+  std::string id, files, writes;  ///< the name, the extensions, and what is written
+  bool scale = false, crop = false, time = false, frames = false, st_map = false;
+};
+/// All formats, films last.
+const std::vector<ExportFormat>& export_formats();
+/// Throws Error with a list of all formats if there is none with this name.
+const ExportFormat& export_format_named(const std::string& id);
+/// The names of all formats, separated by commas.
+std::string export_format_names();
+
+struct FormatsCommand {
+  bool markdown = false;
+};
+/// Prints which files can be opened and written.
+void run(const FormatsCommand& command);
+
+}  // namespace holomorph

@@ -1,0 +1,33 @@
+// The kinds of files that the program reads, and as what.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "system/file.h"
+
+namespace holomorph {
+
+/// What a file can be opened as.
+enum class Content {
+  scene,
+  picture,
+  path,     ///< a cage, a pose or an outline
+  surface,  ///< triangles in space
+  points
+};
+
+struct FileKind {
+  std::string label;
+  std::vector<std::string> extensions;  ///< in lower case and with the dot
+  Content content;
+};
+const std::vector<FileKind>& file_kinds();
+
+/// The extensions of all files that can be opened as one of these.
+std::vector<std::string> extensions_of(std::initializer_list<Content> contents);
+/// Whether the extension is one of files that can be opened as this.
+bool is_named_as(const Path& file, Content content);
+
+}  // namespace holomorph
