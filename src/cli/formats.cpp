@@ -154,12 +154,12 @@ const ExportFormat& export_format_named(const std::string& id) {
 
 void run(const FormatsCommand& command) {
   if (command.markdown) {
-    std::puts("| files | opened as | written with |\n|---|---|---|");
+    std::puts("| files | opened as | what is written |\n|---|---|---|");
     for (const Row& row : rows())
       std::printf("| %s | %s | %s |\n", row.files.c_str(), row.opens.c_str(), row.writes.c_str());
     return;
   }
-  std::printf("%-18s %-32s %s\n", "files", "opened as", "written with");
+  std::printf("%-18s %-32s %s\n", "files", "opened as", "what is written");
   for (const Row& row : rows())
     std::printf("%-18s %-32s %s\n", row.files.c_str(), row.opens.c_str(), row.writes.c_str());
   std::printf("\n%-18s %-32s %s\n", "export --format", "files", "options");

@@ -4,6 +4,7 @@ import io
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -595,6 +596,19 @@ class CommandLine(Case):
         self.assertEqual(back[-1]["count"], "0")
         short = list(csv.DictReader(io.StringIO(self.good("inverse", scene, "--points", posed).stdout)))
         self.assertEqual(len(short), len(inner) + 1)
+
+    def test_formats_are_those_of_the_readme_and_of_export(self):
+        table = self.good("formats", "--markdown").stdout
+        with open(os.path.join(SOURCE, "README.md")) as file:
+            self.assertIn(table, file.read())
+        listed = self.good("formats").stdout
+        names = re.findall(r"^(\S+) +(\.\S.*?)  +--", listed.split("export --format")[1], re.M)
+        self.assertGreater(len(names), 10)
+        self.bad("export", old_sample("giraffe"), "--format", "doc", "--out", self.path("x"),
+                 says="choose one of: " + ", ".join(name for name, _ in names))
+        for line in table.splitlines()[2:]:
+            _, files, opened, written, _ = (cell.strip() for cell in line.split("|"))
+            self.assertTrue(opened or written, files)
 
     def test_stmap_and_unwarp(self):
         scene = old_sample("giraffe")
