@@ -105,6 +105,8 @@ class Files(Case):
 
     def test_standard_output_gets_what_a_file_gets(self):
         for extension, words in self.writers():
+            if extension == ".exr":
+                continue  # standard output gets NumPy
             with self.subTest(words=words):
                 plain = self.path("plain" + extension)
                 self.good(*words, "--out", plain, env=self.paths)
