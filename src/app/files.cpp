@@ -204,8 +204,8 @@ void Files::ask_open(const Path& path) {
 }
 
 void Files::drop(const Path& path) {
-  const bool is_path = is_named_as(path, Content::path),
-             is_surface = is_named_as(path, Content::surface);
+  const bool is_path = is_named_as(path, FileContent::path),
+             is_surface = is_named_as(path, FileContent::surface);
   const Document& document = workspace_.document;
   if ((is_path || is_surface) && document.scene().deformation().has_cage())
     workspace_.messages.complain(imports_.outline(path));
@@ -226,7 +226,7 @@ void Files::ask_where(const Path& path) {
   Question question{"Dropped file", short_name(path.filename()), {}};
   question.answers.push_back(
       {"Add as a layer", [this, path] { workspace_.messages.complain(imports_.add_layer(path)); }});
-  if (!is_named_as(path, Content::scene))
+  if (!is_named_as(path, FileContent::scene))
     question.answers.push_back({"Replace this layer's picture", [this, path] {
                                   workspace_.messages.complain(imports_.replace_picture(path));
                                 }});
@@ -319,7 +319,7 @@ void Files::save(bool as, const Then& then) {
     start =
         in_document_folder(document, dialog_, document.first_picture().stem().string() + ".json");
   if (start.empty()) start = "scene.json";
-  dialog_.ask({FileQuestion::Mode::save, "Save scene", "Save", extensions_of({Content::scene}),
+  dialog_.ask({FileQuestion::Mode::save, "Save scene", "Save", extensions_of({FileContent::scene}),
                start, false},
               [this, then](const Path& path, double) { return save_to(path, then); });
 }
@@ -356,9 +356,10 @@ void Files::answer(Request request) {
       break;
     case Request::open:
       ask_about_changes_then([this] {
-        dialog_.ask_open("Open a picture or scene", "Open",
-                         extensions_of({Content::scene, Content::picture, Content::surface}),
-                         [this](const Path& path) { return open(path); });
+        dialog_.ask_open(
+            "Open a picture or scene", "Open",
+            extensions_of({FileContent::scene, FileContent::picture, FileContent::surface}),
+            [this](const Path& path) { return open(path); });
       });
       break;
     case Request::save:

@@ -20,8 +20,8 @@ std::string Imports::add_layer(const Path& path) {
   return jobs_.run(
       "Reading " + path.filename().string(),
       [added, path, reach = reach_(), open = open_pixels()](Job::Progress&) {
-        *added = is_named_as(path, Content::scene) ? load_scene(path, {true, reach, open})
-                                                   : scene_of_image(path, open);
+        *added = is_named_as(path, FileContent::scene) ? load_scene(path, {true, reach, open})
+                                                       : scene_of_image(path, open);
       },
       [this, added, path] {
         chosen_(path);
@@ -108,7 +108,7 @@ void Imports::ask_find_picture() {
   if (missing.empty()) return;
   const std::string asked = document.scene().layers[missing.front()]->image->file;
   chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Choose",
-                    extensions_of({Content::picture}),
+                    extensions_of({FileContent::picture}),
                     [this, asked](const Path& path) { return find_picture(path, asked); });
 }
 
@@ -159,7 +159,7 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
 
 void Imports::ask_svg(bool pose) {
   chooser_.ask_open(pose ? "Posed cage from SVG" : "Cage from SVG", "Open",
-                    extensions_of({Content::path}),
+                    extensions_of({FileContent::path}),
                     [this, pose](const Path& path) { return svg(path, pose); });
 }
 
@@ -218,17 +218,18 @@ void Imports::answer(Request request) {
       ask_svg(true);
       break;
     case Request::import_outline:
-      chooser_.ask_open("Outline from SVG, picture or OBJ", "Open",
-                        extensions_of({Content::path, Content::surface, Content::picture}),
-                        [this](const Path& path) { return outline(path); });
+      chooser_.ask_open(
+          "Outline from SVG, picture or OBJ", "Open",
+          extensions_of({FileContent::path, FileContent::surface, FileContent::picture}),
+          [this](const Path& path) { return outline(path); });
       break;
     case Request::add_layer:
       chooser_.ask_open("Add a picture, or the layers of a scene", "Add",
-                        extensions_of({Content::scene, Content::picture}),
+                        extensions_of({FileContent::scene, FileContent::picture}),
                         [this](const Path& path) { return add_layer(path); });
       break;
     case Request::replace_picture:
-      chooser_.ask_open("Replace picture", "Replace", extensions_of({Content::picture}),
+      chooser_.ask_open("Replace picture", "Replace", extensions_of({FileContent::picture}),
                         [this](const Path& path) { return replace_picture(path); });
       break;
     case Request::find_picture:

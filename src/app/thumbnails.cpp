@@ -15,7 +15,7 @@ constexpr int kLongestSide = 256;
 constexpr size_t kMostThumbnails = 300, kMostWaiting = 200;
 
 Image thumbnail_of_file(const Path& file) {
-  if (!is_named_as(file, Content::scene))
+  if (!is_named_as(file, FileContent::scene))
     return reduced(decode_image(read_file(file), file.filename().string()), kLongestSide);
   const LoadedScene loaded = load_scene(file);
   PictureOptions options;
@@ -58,7 +58,7 @@ Image reduced(const Image& picture, int longest) {
 }
 
 bool Thumbnails::can_show(const Path& file) {
-  return is_named_as(file, Content::scene) || is_named_as(file, Content::picture);
+  return is_named_as(file, FileContent::scene) || is_named_as(file, FileContent::picture);
 }
 
 const Texture* Thumbnails::of_file(const Path& file) {

@@ -155,7 +155,6 @@ Window::Window(int width, int height, double ui_scale, Theme theme, bool reduce_
 
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  ImGui::GetIO().MouseDoubleClickTime = 0.45f;
   ImGui::GetIO().ConfigDragClickToInputText = true;
   ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
@@ -219,9 +218,11 @@ void Window::begin_frame(bool navigates) {
   // ImGui itself activates buttons only with Space. This adds Enter.
   if (navigates && enter_activates_) io.NavInputs[ImGuiNavInput_Activate] = 1;
   io.KeyAlt = io.KeyAlt || alt_;
-  // The second press comes two frames after the first at the earliest, which may be slow ones.
-  constexpr float kDoubleClickSeconds = 0.3f;
-  io.MouseDoubleClickTime = kDoubleClickSeconds + 2 * io.DeltaTime;
+  // The second press comes two frames after the first at the earliest, which may be slow ones. The
+  // time between frames would not do, because the window sleeps there.
+  constexpr double kDoubleClickSeconds = 0.45;
+  io.MouseDoubleClickTime = static_cast<float>(kDoubleClickSeconds + 2 * frame_seconds_);
+  frame_start_ = glfwGetTime();
   ImGui::NewFrame();
   advance_theme();
   forget_item_boxes();
@@ -230,6 +231,7 @@ void Window::begin_frame(bool navigates) {
 void Window::end_frame() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(window_);
+  frame_seconds_ = glfwGetTime() - frame_start_;
 }
 
 std::pair<double, double> Window::pointer() const {

@@ -86,6 +86,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   std::atomic<bool> woken_{false};
   int owed_frames_ = 3, taken_ = 0;
+  double frame_start_ = 0, frame_seconds_ = 0;  ///< of the last frame
   double scale_ = 1, wanted_scale_ = 0;
   bool reduce_motion_ = false;
   Theme theme_ = Theme::dark;

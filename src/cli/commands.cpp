@@ -26,7 +26,7 @@ namespace {
 /// Reads a cage from a path in an SVG file or from the boundary of a surface's texture coordinates.
 Cage cage_of_file(const Path& path, const Image& picture) {
   const std::string text = read_file(path);
-  if (!is_named_as(path, Content::surface))
+  if (!is_named_as(path, FileContent::surface))
     return cage_of_svg(text, path.string(), picture.height, PathUse::rest);
   try {
     return polygon_cage(

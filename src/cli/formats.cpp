@@ -18,17 +18,17 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
-std::string text_of(Content content) {
+std::string text_of(FileContent content) {
   switch (content) {
-    case Content::scene:
+    case FileContent::scene:
       return "a scene";
-    case Content::picture:
+    case FileContent::picture:
       return "a picture";
-    case Content::path:
+    case FileContent::path:
       return "a cage or an outline";
-    case Content::surface:
+    case FileContent::surface:
       return "a surface, a cage or an outline";
-    case Content::points:
+    case FileContent::points:
       return "points";
   }
   return "";
@@ -70,7 +70,7 @@ std::vector<Row> rows() {
   std::vector<std::string> known;
   for (const FileKind& kind : file_kinds()) {
     std::vector<std::string> writes = written_to(kind.extensions[0]);
-    if (kind.content == Content::scene || kind.content == Content::points)
+    if (kind.content == FileContent::scene || kind.content == FileContent::points)
       writes.push_back(text_of(kind.content));
     rows.push_back({joined(kind.extensions, " "), text_of(kind.content), joined(writes, "; ")});
     known.insert(known.end(), kind.extensions.begin(), kind.extensions.end());

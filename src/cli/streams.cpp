@@ -35,7 +35,7 @@ LoadedScene read_scene(const SceneCommand& command) {
   const Path& input = command.scene;
   const LoadOptions options{false, {command.outside}};
   const bool regular = is_file(input);
-  if (regular && !is_named_as(input, Content::scene) && !read_file(input).starts_with("{"))
+  if (regular && !is_named_as(input, FileContent::scene) && !read_file(input).starts_with("{"))
     throw Error(ErrorKind::bad_input, input.string() +
                                           ": this is not a scene; make one from a picture with "
                                           "'holomorph new PICTURE --out SCENE'");

@@ -35,9 +35,9 @@ Document::Document(LoadedScene loaded, Path path)
       stamp_{{}, std::move(loaded.sha256)} {}
 
 Document Document::open(const Path& path, const Reach& reach) {
-  if (is_named_as(path, Content::scene))
+  if (is_named_as(path, FileContent::scene))
     return {load_scene(path, {true, reach}), absolute_path(path)};
-  if (is_named_as(path, Content::surface)) return {scene_of_surface(path, reach), Path()};
+  if (is_named_as(path, FileContent::surface)) return {scene_of_surface(path, reach), Path()};
   return {scene_of_image(path), Path()};
 }
 

@@ -295,6 +295,19 @@ class EditorWindowTest(WindowCase):
                 editor.key("ctrl+z")
                 editor.wait(lambda s: s["step"] == 0, "the point where it was")
 
+    def test_two_clicks_are_a_double_click_only_if_they_are_quick(self):
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] == 4 and s["tool"] == "select", "the scene")
+            edge = editor.pixel(150, 190)
+            editor.xdotool("mousemove", *edge)
+            for _ in range(2):
+                editor.press(*edge)
+                time.sleep(3)  # the window sleeps, so no frame tells how much time has passed
+            self.assertEqual(editor.state()["cage_points"], 4)
+            editor.xdotool("click", "--repeat", 2, "--delay", 60, 1)
+            editor.wait(lambda s: s["cage_points"] == 5, "another point")
+
     def test_before_and_after_lie_side_by_side(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         half = numpy.zeros((200, 300, 4), numpy.uint8)

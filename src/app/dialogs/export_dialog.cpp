@@ -42,7 +42,7 @@ std::vector<Format> formats(bool plays) {
 /// a dot is a part of the name.
 bool is_known_extension(const std::string& extension) {
   const auto is = [&](const std::string& each) { return each == extension; };
-  return std::ranges::any_of(extensions_of({Content::picture}), is) ||
+  return std::ranges::any_of(extensions_of({FileContent::picture}), is) ||
          std::ranges::any_of(film_formats(), is, &FilmFormat::extension);
 }
 

@@ -8,23 +8,23 @@
 namespace holomorph {
 
 const std::vector<FileKind>& file_kinds() {
-  static const std::vector<FileKind> all{{"Scene", {".json", ".holomorph"}, Content::scene},
-                                         {"PNG", {".png"}, Content::picture},
-                                         {"JPEG", {".jpg", ".jpeg"}, Content::picture},
-                                         {"WebP", {".webp"}, Content::picture},
-                                         {"TIFF", {".tif", ".tiff"}, Content::picture},
-                                         {"OpenRaster", {".ora"}, Content::picture},
-                                         {"PSD", {".psd"}, Content::picture},
-                                         {"GIF", {".gif"}, Content::picture},
-                                         {"BMP", {".bmp"}, Content::picture},
-                                         {"TGA", {".tga"}, Content::picture},
-                                         {"SVG", {".svg"}, Content::path},
-                                         {"Wavefront OBJ", {".obj"}, Content::surface},
-                                         {"CSV", {".csv"}, Content::points}};
+  static const std::vector<FileKind> all{{"Scene", {".json", ".holomorph"}, FileContent::scene},
+                                         {"PNG", {".png"}, FileContent::picture},
+                                         {"JPEG", {".jpg", ".jpeg"}, FileContent::picture},
+                                         {"WebP", {".webp"}, FileContent::picture},
+                                         {"TIFF", {".tif", ".tiff"}, FileContent::picture},
+                                         {"OpenRaster", {".ora"}, FileContent::picture},
+                                         {"PSD", {".psd"}, FileContent::picture},
+                                         {"GIF", {".gif"}, FileContent::picture},
+                                         {"BMP", {".bmp"}, FileContent::picture},
+                                         {"TGA", {".tga"}, FileContent::picture},
+                                         {"SVG", {".svg"}, FileContent::path},
+                                         {"Wavefront OBJ", {".obj"}, FileContent::surface},
+                                         {"CSV", {".csv"}, FileContent::points}};
   return all;
 }
 
-std::vector<std::string> extensions_of(std::initializer_list<Content> contents) {
+std::vector<std::string> extensions_of(std::initializer_list<FileContent> contents) {
   std::vector<std::string> found;
   for (const FileKind& kind : file_kinds())
     if (std::ranges::find(contents, kind.content) != contents.end())
@@ -32,7 +32,7 @@ std::vector<std::string> extensions_of(std::initializer_list<Content> contents) 
   return found;
 }
 
-bool is_named_as(const Path& file, Content content) {
+bool is_named_as(const Path& file, FileContent content) {
   const std::string extension = lower_case(file.extension().string());
   return std::ranges::any_of(file_kinds(), [&](const FileKind& kind) {
     return kind.content == content &&

@@ -10,7 +10,7 @@
 namespace holomorph {
 
 /// What a file can be opened as.
-enum class Content {
+enum class FileContent {
   scene,
   picture,
   path,     ///< a cage, a pose or an outline
@@ -21,13 +21,13 @@ enum class Content {
 struct FileKind {
   std::string label;
   std::vector<std::string> extensions;  ///< in lower case and with the dot
-  Content content;
+  FileContent content;
 };
 const std::vector<FileKind>& file_kinds();
 
 /// The extensions of all files that can be opened as one of these.
-std::vector<std::string> extensions_of(std::initializer_list<Content> contents);
+std::vector<std::string> extensions_of(std::initializer_list<FileContent> contents);
 /// Whether the extension is one of files that can be opened as this.
-bool is_named_as(const Path& file, Content content);
+bool is_named_as(const Path& file, FileContent content);
 
 }  // namespace holomorph

@@ -27,9 +27,9 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
   const std::string name = path.string(), bytes = read_file(path);
   try {
     Points outline;
-    if (is_named_as(path, Content::path)) {
+    if (is_named_as(path, FileContent::path)) {
       outline = flattened(cage_of_svg(bytes, name, height, PathUse::outline)).points;
-    } else if (is_named_as(path, Content::surface)) {
+    } else if (is_named_as(path, FileContent::surface)) {
       outline = flattened_onto(surface_of_obj(bytes, name).surface, how, onto).outline();
     } else {
       const Image image = decode_image(bytes, name);
@@ -39,7 +39,8 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
       outline = fitted(flattened(cage).points, onto);
     }
     // The number of points identifies a surface's boundary, so it is not resampled.
-    if (!is_named_as(path, Content::surface) && static_cast<Index>(outline.size()) > kMostPoints)
+    if (!is_named_as(path, FileContent::surface) &&
+        static_cast<Index>(outline.size()) > kMostPoints)
       outline = at_equal_lengths(Polyline(outline, true), kMostPoints);
     check_outline(outline);
     return outline;
@@ -49,7 +50,7 @@ Points outline_of_file(const Path& path, double height, const Box& onto, Flatten
 }
 
 std::optional<SurfaceReference> surface_of_file(const Path& path, Flattening how) {
-  if (!is_named_as(path, Content::surface)) return {};
+  if (!is_named_as(path, FileContent::surface)) return {};
   return SurfaceReference{absolute_path(path).string(), how};
 }
 
