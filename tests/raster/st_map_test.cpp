@@ -40,6 +40,20 @@ Scene moved_star(const char* method, unsigned seed) {
   return scene_of(deformation);
 }
 
+/// A bar from x = 20 to `right` that is bent like a U until its ends overlap, the right one on top.
+Scene bent_bar(double right) {
+  const double middle = 0.5 * (20 + right);
+  Deformation bar = with_cage(
+      Deformation{},
+      Points{{20, 100}, {middle, 100}, {right, 100}, {right, 140}, {middle, 140}, {20, 140}});
+  bar.method = "arap";
+  bar.pins = {{{40, 120}, {60, 115}, {}, {}},
+              {{middle, 120}, {180, 120}, {}, {}},
+              {{right - 20, 120}, {60, 125}, {}, {}}};
+  bar.pins[2].depth = 1;
+  return scene_of(bar);
+}
+
 size_t index_of(const StMap& map, int column, int row) {
   return static_cast<size_t>(row) * static_cast<size_t>(map.width) + static_cast<size_t>(column);
 }
@@ -79,14 +93,7 @@ TEST_CASE("An overscan adds pixels and changes none") {
 
 TEST_CASE("Coverage is the opacity with which a white picture is drawn") {
   // A bar beyond the right edge of the picture is bent until what shows nothing lies on top.
-  Deformation bar = with_cage(
-      Deformation{}, Points{{20, 100}, {200, 100}, {380, 100}, {380, 140}, {200, 140}, {20, 140}});
-  bar.method = "arap";
-  bar.pins = {{{40, 120}, {60, 115}, {}, {}},
-              {{200, 120}, {200, 120}, {}, {}},
-              {{360, 120}, {60, 125}, {}, {}}};
-  bar.pins[2].depth = 1;
-  std::vector<Scene> scenes{scene_of(bar)};
+  std::vector<Scene> scenes{bent_bar(380)};
   for (const unsigned seed : seeds_of("coverage", {4})) scenes.push_back(moved_star("cage", seed));
   for (const Scene& scene : scenes) {
     TimedMap timed(scene);
@@ -188,15 +195,7 @@ TEST_CASE("Extended ST-maps are finite and keep what they show") {
 }
 
 TEST_CASE("What is transparent does not hide what is beneath it") {
-  // A bar is bent like a U until its ends overlap. The end on top is transparent.
-  Deformation deformation = with_cage(
-      Deformation{}, Points{{20, 100}, {120, 100}, {220, 100}, {220, 140}, {120, 140}, {20, 140}});
-  deformation.method = "arap";
-  deformation.pins = {{{40, 120}, {60, 115}, {}, {}},
-                      {{120, 120}, {180, 120}, {}, {}},
-                      {{200, 120}, {60, 125}, {}, {}}};
-  deformation.pins[2].depth = 1;
-  const Scene scene = scene_of(deformation);
+  const Scene scene = bent_bar(220);  // the end on top is transparent
   TimedMap timed(scene);
   for (const bool transparent : {false, true}) {
     Image picture = opaque_picture();

@@ -170,25 +170,24 @@ TEST_CASE("ST-maps and unwarped pictures can be interrupted") {
 }
 
 TEST_CASE("Preimages of many points at once are those of each point") {
-  for (const unsigned seed : seeds_of("many preimages", {1, 2}))
-    for (size_t m = 0; m < methods().size(); ++m) {
-      const Method& method = methods()[m];
-      const bool curved = (m + seed) % 2 != 0;
-      const Scene scene = random_scene(method, curved, seed);
-      TimedMap timed(scene);
-      const auto inverse = timed.inverse(timed.frame({}));
-      if (!inverse) continue;
-      INFO(method.id << (curved ? ", curved" : ", straight") << ", seed " << seed);
-      std::mt19937 random(seed);
-      Points targets;
-      for (int i = 0; i < 150; ++i)  // not a multiple of a block
-        targets.push_back(Complex(200, 200) + 190.0 * random_complex(random));
-      const auto found = inverse->at(targets);
-      REQUIRE(found.size() == targets.size());
-      for (size_t i = 0; i < targets.size(); ++i) {
-        const std::vector<Preimage> alone = inverse->inverse.at(targets[i]);
-        REQUIRE(found[i].size() == alone.size());
-        for (size_t k = 0; k < alone.size(); ++k) REQUIRE(found[i][k].z == alone[k].z);
+  for (const unsigned seed : seeds_of("many preimages", {1}))
+    for (const Method& method : methods())
+      for (const bool curved : {false, true}) {
+        const Scene scene = random_scene(method, curved, seed);
+        TimedMap timed(scene);
+        const auto inverse = timed.inverse(timed.frame({}));
+        if (!inverse) continue;
+        INFO(method.id << (curved ? ", curved" : ", straight") << ", seed " << seed);
+        std::mt19937 random(seed);
+        Points targets;
+        for (int i = 0; i < 150; ++i)  // not a multiple of a block
+          targets.push_back(Complex(200, 200) + 190.0 * random_complex(random));
+        const auto found = inverse->at(targets);
+        REQUIRE(found.size() == targets.size());
+        for (size_t i = 0; i < targets.size(); ++i) {
+          const std::vector<Preimage> alone = inverse->inverse.at(targets[i]);
+          REQUIRE(found[i].size() == alone.size());
+          for (size_t k = 0; k < alone.size(); ++k) REQUIRE(found[i][k].z == alone[k].z);
+        }
       }
-    }
 }

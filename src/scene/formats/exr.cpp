@@ -45,7 +45,7 @@ std::vector<half> halves_of(const std::vector<float>& numbers) {
 }  // namespace
 
 std::string exr_of(const FloatImage& image, FloatBits bits) {
-  using Imath::Box2i, Imath::V2i;
+  using Imath::Box2i;
   const int over = image.overscan;
   const Box2i display({0, 0}, {image.width - 2 * over - 1, image.height - 2 * over - 1}),
       data({-over, -over}, {image.width - over - 1, image.height - over - 1});
