@@ -44,10 +44,6 @@ std::string options_of(const ExportFormat& format) {
   return joined(options, " ");
 }
 
-bool has_extension(const ExportFormat& format, const std::string& extension) {
-  return (format.files + " ").find(extension + " ") != std::string::npos;
-}
-
 /// What the program writes to files with this extension.
 std::vector<std::string> written_to(const std::string& extension) {
   std::vector<std::string> writes;
@@ -57,7 +53,7 @@ std::vector<std::string> written_to(const std::string& extension) {
   for (const PictureFormat& format : picture_formats())
     if (format.extension == extension) add("the picture");
   for (const ExportFormat& format : export_formats())
-    if (has_extension(format, extension)) add(format.writes);
+    if (std::ranges::count(format.extensions, extension) > 0) add(format.writes);
   return writes;
 }
 
@@ -75,16 +71,12 @@ std::vector<Row> rows() {
     rows.push_back({joined(kind.extensions, " "), text_of(kind.content), joined(writes, "; ")});
     known.insert(known.end(), kind.extensions.begin(), kind.extensions.end());
   }
-  for (const ExportFormat& format : export_formats()) {
-    for (size_t at = 0; at < format.files.size();) {
-      const size_t end = std::min(format.files.find(' ', at), format.files.size());
-      const std::string extension = format.files.substr(at, end - at);
-      at = end + 1;
-      if (std::ranges::find(known, extension) != known.end()) continue;
+  for (const ExportFormat& format : export_formats())
+    for (const std::string& extension : format.extensions) {
+      if (std::ranges::count(known, extension) > 0) continue;
       rows.push_back({extension, "", joined(written_to(extension), "; ")});
       known.push_back(extension);
     }
-  }
   return rows;
 }
 
@@ -93,47 +85,48 @@ std::vector<Row> rows() {
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> all = [] {
     std::vector<ExportFormat> formats{
-        {.id = "obj", .files = ".obj", .writes = "the bent mesh", .time = true},
-        {.id = "svg", .files = ".svg", .writes = "the cage", .time = true},
-        {.id = "npy", .files = ".npy", .writes = "the vertices of the mesh", .time = true},
+        {.id = "obj", .extensions = {".obj"}, .writes = "the bent mesh", .time = true},
+        {.id = "svg", .extensions = {".svg"}, .writes = "the cage", .time = true},
+        {.id = "npy", .extensions = {".npy"}, .writes = "the vertices of the mesh", .time = true},
         {.id = "png",
-         .files = ".png",
+         .extensions = {".png"},
          .writes = "the picture",
          .scale = true,
          .crop = true,
          .time = true,
          .frames = true},
         {.id = "stmap",
-         .files = ".exr .npy",
+         .extensions = {".exr", ".npy"},
          .writes = "an ST-map",
          .scale = true,
          .time = true,
          .frames = true,
          .st_map = true},
         {.id = "unwarp-map",
-         .files = ".exr .npy",
+         .extensions = {".exr", ".npy"},
          .writes = "an ST-map that straightens",
          .scale = true,
          .time = true,
          .frames = true,
          .st_map = true},
         {.id = "unwarp",
-         .files = ".png",
+         .extensions = {".png"},
          .writes = "the straightened picture",
          .scale = true,
          .time = true},
         {.id = "textured",
-         .files = ".obj",
+         .extensions = {".obj"},
          .writes = "the surface with the picture as its texture",
          .scale = true}};
     for (const FilmFormat& film : film_formats())
       if (film.extension != ".png")
         formats.push_back({.id = film.extension.substr(1),
-                           .files = film.extension,
+                           .extensions = {film.extension},
                            .writes = film.needs_ffmpeg ? "a film (needs ffmpeg)" : "a film",
                            .scale = true,
                            .crop = true,
-                           .frames = true});
+                           .frames = true,
+                           .film = true});
     return formats;
   }();
   return all;
@@ -164,7 +157,7 @@ void run(const FormatsCommand& command) {
     std::printf("%-18s %-32s %s\n", row.files.c_str(), row.opens.c_str(), row.writes.c_str());
   std::printf("\n%-18s %-32s %s\n", "export --format", "files", "options");
   for (const ExportFormat& format : export_formats())
-    std::printf("%-18s %-32s %s\n", format.id.c_str(), format.files.c_str(),
+    std::printf("%-18s %-32s %s\n", format.id.c_str(), joined(format.extensions, " ").c_str(),
                 options_of(format).c_str());
 }
 

@@ -8,8 +8,10 @@ namespace holomorph {
 
 /// A format of `export` and the options that it accepts.
 struct ExportFormat {
-  std::string id, files, writes;  ///< the name, the extensions, and what is written
-  bool scale = false, crop = false, time = false, frames = false, st_map = false;
+  std::string id;
+  std::vector<std::string> extensions;  ///< with the dot
+  std::string writes;                   ///< what is written, such as "a film"
+  bool scale = false, crop = false, time = false, frames = false, st_map = false, film = false;
 };
 /// All formats, films last.
 const std::vector<ExportFormat>& export_formats();

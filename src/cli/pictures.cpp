@@ -67,11 +67,6 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
                numbered(command.out, range.last).c_str(), shared.c_str());
 }
 
-/// Whether a format is a film in one file.
-bool is_film(const ExportFormat& format) {
-  return format.frames && !format.time;
-}
-
 void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   require_keyframes(loaded.scene, command.scene);
   if (!is_standard(command.out) &&
@@ -221,7 +216,7 @@ void run(const ExportCommand& command) {
   if (known.st_map) return export_st_maps(loaded, command);
   check_out(command.out, command.force, command.scene, loaded);
   if (format == "textured") return export_textured(loaded, command);
-  if (is_film(known)) return export_film(loaded, command);
+  if (known.film) return export_film(loaded, command);
   const std::string bytes = exported(loaded, command);
   write_result(command.out, bytes);
   std::fprintf(stderr, "%s: %zu bytes\n", shown_output(command.out).c_str(), bytes.size());

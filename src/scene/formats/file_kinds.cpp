@@ -8,19 +8,19 @@
 namespace holomorph {
 
 const std::vector<FileKind>& file_kinds() {
-  static const std::vector<FileKind> all{{"Scene", {".json", ".holomorph"}, FileContent::scene},
-                                         {"PNG", {".png"}, FileContent::picture},
-                                         {"JPEG", {".jpg", ".jpeg"}, FileContent::picture},
-                                         {"WebP", {".webp"}, FileContent::picture},
-                                         {"TIFF", {".tif", ".tiff"}, FileContent::picture},
-                                         {"OpenRaster", {".ora"}, FileContent::picture},
-                                         {"PSD", {".psd"}, FileContent::picture},
-                                         {"GIF", {".gif"}, FileContent::picture},
-                                         {"BMP", {".bmp"}, FileContent::picture},
-                                         {"TGA", {".tga"}, FileContent::picture},
-                                         {"SVG", {".svg"}, FileContent::path},
-                                         {"Wavefront OBJ", {".obj"}, FileContent::surface},
-                                         {"CSV", {".csv"}, FileContent::points}};
+  static const std::vector<FileKind> all{{{".json", ".holomorph"}, FileContent::scene},
+                                         {{".png"}, FileContent::picture},
+                                         {{".jpg", ".jpeg"}, FileContent::picture},
+                                         {{".webp"}, FileContent::picture},
+                                         {{".tif", ".tiff"}, FileContent::picture},
+                                         {{".ora"}, FileContent::picture},
+                                         {{".psd"}, FileContent::picture},
+                                         {{".gif"}, FileContent::picture},
+                                         {{".bmp"}, FileContent::picture},
+                                         {{".tga"}, FileContent::picture},
+                                         {{".svg"}, FileContent::path},
+                                         {{".obj"}, FileContent::surface},
+                                         {{".csv"}, FileContent::points}};
   return all;
 }
 

@@ -19,7 +19,6 @@ enum class FileContent {
 };
 
 struct FileKind {
-  std::string label;
   std::vector<std::string> extensions;  ///< in lower case and with the dot
   FileContent content;
 };
