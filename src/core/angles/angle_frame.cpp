@@ -10,7 +10,7 @@ namespace holomorph {
 namespace {
 
 /// Places the same number of samples on each segment, beginning at its start.
-std::vector<BoundaryPoint> samples_along(const Cage& cage) {
+std::vector<BoundaryPoint> places_along(const Cage& cage) {
   const Index per_segment = std::clamp<Index>(160 / cage.size(), 2, 8);
   std::vector<BoundaryPoint> places;
   for (Index e = 0; e < cage.size(); ++e)
@@ -19,35 +19,34 @@ std::vector<BoundaryPoint> samples_along(const Cage& cage) {
   return places;
 }
 
-Points at(const Cage& cage, const std::vector<BoundaryPoint>& places) {
+}  // namespace
+
+AngleFrame::AngleFrame(const Cage& cage) : cage_(cage), places_(places_along(cage)) {}
+
+Points AngleFrame::at(const Cage& cage) const {
   Points points;
-  for (const BoundaryPoint& place : places) points.push_back(position_of(cage, place));
+  for (const BoundaryPoint& place : places_) points.push_back(position_of(cage, place));
   return points;
 }
 
-Complex mean_of_vertices(const Points& along, const std::vector<BoundaryPoint>& places) {
+Complex AngleFrame::mean_of_vertices(const Points& along) const {
   Complex sum = 0;
   for (size_t i = 0; i < along.size(); ++i)
-    if (places[i].t == 0) sum += along[i];
-  return sum / static_cast<double>(places.back().segment + 1);
+    if (places_[i].t == 0) sum += along[i];
+  return sum / static_cast<double>(cage_.size());
 }
 
-}  // namespace
+Points AngleFrame::samples() const {
+  return at(cage_);
+}
 
-AngleFrame::AngleFrame(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
-                       Precision precision)
-    : samples_(samples_along(coordinates->cage())),
-      boundary_(mesh, coordinates, at(coordinates->cage(), samples_), precision) {}
-
-PlacedAngles AngleFrame::place(const VectorXd& theta, const Cage& pose) {
+PlacedAngles AngleFrame::place(const VectorXd& theta, const VectorXc& image,
+                               const Cage& pose) const {
   constexpr double kLeastScale = 1e-6;  // used if the cage collapses to a point
-  VectorXc f;
-  boundary_.map(theta, f);
-  const Points image(f.begin(), f.end()), target = at(pose, samples_);
+  const Points from(image.begin(), image.end()), to = at(pose);
   PlacedAngles placed{theta};
-  placed.scale = std::max(perimeter(target) / perimeter(image), kLeastScale);
-  placed.move =
-      mean_of_vertices(target, samples_) - placed.scale * mean_of_vertices(image, samples_);
+  placed.scale = std::max(perimeter(to) / perimeter(from), kLeastScale);
+  placed.move = mean_of_vertices(to) - placed.scale * mean_of_vertices(from);
   if (!std::isfinite(placed.scale) || !is_finite(placed.move))
     throw Error(ErrorKind::bad_input,
                 "the angles bend the picture so far that coordinates are not finite; turn the "

@@ -16,18 +16,22 @@ struct PlacedAngles {
 
 class AngleFrame {
  public:
-  AngleFrame(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> coordinates,
-             Precision precision);
+  explicit AngleFrame(const Cage& cage);
 
+  /// Points along the boundary, the vertices among them.
+  Points samples() const;
   /// The scale makes the image of the boundary as long as the posed cage. The translation makes the
-  /// images of the cage's vertices have the same mean as the posed vertices. theta is in radians;
-  /// `pose` must be counter-clockwise. Throws Error if the angles bend the boundary too far for a
-  /// finite result.
-  PlacedAngles place(const VectorXd& theta, const Cage& pose);
+  /// images of the cage's vertices have the same mean as the posed vertices. theta is in radians,
+  /// and `image` is where AngleMap::map takes the samples for theta; `pose` must be
+  /// counter-clockwise. Throws Error if the angles bend the boundary too far for a finite result.
+  PlacedAngles place(const VectorXd& theta, const VectorXc& image, const Cage& pose) const;
 
  private:
-  std::vector<BoundaryPoint> samples_;  ///< samples along the boundary, vertices included
-  AngleMap boundary_;
+  Points at(const Cage& cage) const;
+  Complex mean_of_vertices(const Points& along) const;
+
+  Cage cage_;
+  std::vector<BoundaryPoint> places_;
 };
 
 }  // namespace holomorph

@@ -3,7 +3,6 @@
 #include "core/angles/angle_map.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/arithmetic.h"
 #include "core/geometry/deepest_point.h"
@@ -29,25 +28,29 @@ AngleMap::AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> c
   anchor_ = mesh.vertices[static_cast<size_t>(root)];
   at_anchor_ = coordinates_->at({&anchor_, 1}).imag();
   const MeshTree tree(mesh, root);
-  if (samples == mesh.vertices) {
-    for (const MeshTree::Edge& edge : tree.edges()) paths_.add(edge.from, edge.to);
-    nodes_of_samples_.resize(samples.size());
-    std::iota(nodes_of_samples_.begin(), nodes_of_samples_.end(), 0);
-  } else {
-    std::vector<char> wanted(mesh.vertices.size(), 0);
-    for (const Complex& z : samples) wanted[static_cast<size_t>(paths_.vertex_near(z))] = 1;
-    for (auto edge = tree.edges().rbegin(); edge != tree.edges().rend(); ++edge)
-      if (wanted[static_cast<size_t>(edge->to)]) wanted[static_cast<size_t>(edge->from)] = 1;
-    for (const MeshTree::Edge& edge : tree.edges())
-      if (wanted[static_cast<size_t>(edge.to)]) paths_.add(edge.from, edge.to);
-    for (const Complex& z : samples) nodes_of_samples_.push_back(paths_.add_node(z));
-  }
+  // Usually, the samples begin with the vertices, which then need not be searched for.
+  const auto is_vertex = [&](size_t i) {
+    return i < mesh.vertices.size() && samples[i] == mesh.vertices[i];
+  };
+  std::vector<char> wanted(mesh.vertices.size(), 0);
+  for (size_t i = 0; i < samples.size(); ++i)
+    wanted[is_vertex(i) ? i : static_cast<size_t>(paths_.vertex_near(samples[i]))] = 1;
+  for (auto edge = tree.edges().rbegin(); edge != tree.edges().rend(); ++edge)
+    if (wanted[static_cast<size_t>(edge->to)]) wanted[static_cast<size_t>(edge->from)] = 1;
+  for (const MeshTree::Edge& edge : tree.edges())
+    if (wanted[static_cast<size_t>(edge.to)]) paths_.add(edge.from, edge.to);
+  for (size_t i = 0; i < samples.size(); ++i)
+    nodes_of_samples_.push_back(is_vertex(i) ? static_cast<int>(i) : paths_.add_node(samples[i]));
   angles_.resize(cage.size());
   for (Index j = 0; j < cage.size(); ++j) angles_[j] = coordinates_->angle(j);
-  const MatrixXc h = rows(paths_.quadrature_points());
   const auto keep = [&]<class T>(Parts<T> parts) {
-    parts.re = h.real().template cast<T>();
-    parts.im = h.imag().template cast<T>();
+    const Points& points = paths_.quadrature_points();
+    parts.re.resize(static_cast<Index>(points.size()), at_anchor_.size());
+    parts.im.resize(parts.re.rows(), parts.re.cols());
+    coordinates_->for_each_group(points, 0, [&](const PointGroup& group, const MatrixXc& rows) {
+      parts.re(group.indices, Eigen::all) = rows.real().template cast<T>();
+      parts.im(group.indices, Eigen::all) = (rows.imag().rowwise() - at_anchor_).template cast<T>();
+    });
     h_ = std::move(parts);
   };
   if (precision == Precision::full)

@@ -3,12 +3,13 @@
 #include "core/angles/hilbert.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 
-#include "core/arithmetic.h"
-#include "core/cauchy/cauchy_array.h"
 #include "core/cauchy/quadrature.h"
+#include "core/error.h"
 #include "core/geometry/deepest_point.h"
+#include "core/parallel.h"
 #include "core/solvers/dense.h"
 
 namespace holomorph {
@@ -60,9 +61,7 @@ std::vector<double> powers_of(double angle) {
   return powers;
 }
 
-Complex logarithmic_slope(Complex at, Complex tip, Complex z) {
-  return 1.0 / (z - at) - 1.0 / (z - tip);
-}
+using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// The arc length of a segment from its start to the parameter t.
 double length_to(const Points& controls, double t) {
@@ -133,9 +132,8 @@ RealParts corner_values(const Cage& cage, const std::vector<Index>& corners) {
 HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolerance)
     : cage_(std::move(cage)), parts_(std::move(parts)) {
   set_up_vertices();
-  correction_weights_ =
+  linear_weights_ =
       (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
-  const auto bends = [&](Index vertex) { return std::abs(angle(vertex) - kPi) > kFlatTurn; };
   for (Index e = 0; e < cage_.size(); ++e) {
     if (bends(e) || bends(cage_.next(e)) || cage_.degree(e) > 1)
       pieces_.insert(pieces_.end(), {{e, 0, 0.5}, {e, 0.5, 1}});
@@ -147,6 +145,12 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
     refine(errors, tolerance);
     errors = solve(tolerance);
   }
+  // What is missing from the linear functions is added to all coordinates.
+  coefficients_ -= (coefficients_ * parts_.linear) * linear_weights_;
+}
+
+bool HilbertCoordinates::bends(Index vertex) const {
+  return std::abs(angle(vertex) - kPi) > kFlatTurn;
 }
 
 void HilbertCoordinates::set_up_vertices() {
@@ -158,27 +162,30 @@ void HilbertCoordinates::set_up_vertices() {
     hole_centers_.push_back(deepest_point(Polyline({hole.begin(), hole.end()}, true)));
   }
   size_ = box_of(outline).diagonal();
-  log_coefficients_ = MatrixXc::Zero(n, parts_.jumps.cols());
+  std::vector<Index> jumping;
   for (Index j = 0; j < n; ++j) {
     const Points before = cage_.controls(cage_.before(j)), after = cage_.controls(j);
     const Complex out = after[1] - after[0], in = before.back() - before[before.size() - 2];
-    Vertex vertex{after[0], 0, std::arg(-in / out), {}, {}};
+    Vertex vertex{after[0], 0, std::arg(-in / out), false, {}, {}};
     if (vertex.angle <= 0) vertex.angle += 2 * kPi;
     vertex.tip = tip_of(outline, vertex.at,
                         -out / std::abs(out) * std::polar(1.0, vertex.angle / 2), vertex.angle);
     vertex.powers = powers_of(vertex.angle);
-    vertex.powers.resize(std::min(vertex.powers.size(), kMostPowers));
+    vertex.powers.resize(std::min(vertex.powers.size(), HilbertFunctions::kMostPowers));
     for (const double power : vertex.powers) {
       const auto lower = std::ranges::find_if(
           vertex.powers, [power](double other) { return std::abs(other + 1 - power) < 1e-6; });
       vertex.lower.push_back(
           lower == vertex.powers.end() ? -1 : static_cast<int>(lower - vertex.powers.begin()));
     }
-    // The logarithm's imaginary part decreases by the inner angle as the boundary passes the
-    // vertex.
-    log_coefficients_.row(j) = kI / vertex.angle * parts_.jumps.row(j);
+    vertex.jumps = !parts_.jumps.row(j).isZero(0);
+    if (vertex.jumps) jumping.push_back(j);
     vertices_.push_back(std::move(vertex));
   }
+  // A logarithm's imaginary part decreases by the inner angle as the boundary passes the vertex.
+  slopes_ = parts_.jumps(jumping, Eigen::all);
+  for (size_t k = 0; k < jumping.size(); ++k)
+    slopes_.row(static_cast<Index>(k)) /= angle(jumping[k]);
 }
 
 void HilbertCoordinates::refine(const std::vector<double>& errors, double tolerance) {
@@ -195,202 +202,149 @@ void HilbertCoordinates::refine(const std::vector<double>& errors, double tolera
   pieces_ = std::move(finer);
 }
 
-/// Fits all coordinates; returns each piece's largest error.
-std::vector<double> HilbertCoordinates::solve(double tolerance) {
-  boundary_ = {};
-  std::vector<BoundaryPoint> samples, on_cage;
+/// Where the real parts are fitted.
+struct HilbertCoordinates::Samples {
+  std::vector<BoundaryPoint> on_pieces;  ///< the piece, and the parameter on it
+  std::vector<BoundaryPoint> on_cage;
+};
+
+HilbertCoordinates::Samples HilbertCoordinates::samples() const {
+  Samples samples;
   for (size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    if (piece.from == 0 && std::ranges::binary_search(cage_.holes, piece.segment))
-      boundary_.holes.push_back(boundary_.size());
-    Points controls = part_of(cage_.controls(piece.segment), piece.from, piece.to);
-    controls = elevated(controls, std::max(kDegree, static_cast<int>(controls.size()) - 1));
-    controls.pop_back();
-    boundary_.segments.push_back(std::move(controls));
+    const auto& [segment, from, to] = pieces_[i];
     const auto add = [&](double t) {
-      samples.push_back({static_cast<Index>(i), t});
-      on_cage.push_back({piece.segment, piece.from + t * (piece.to - piece.from)});
+      samples.on_pieces.push_back({static_cast<Index>(i), t});
+      samples.on_cage.push_back({segment, from + t * (to - from)});
     };
     for (int k = 0; k < kSamplesPerPiece; ++k) add((k + 0.5) / kSamplesPerPiece);
     for (int k = 1; k <= kCornerSamples; ++k) {
       const double near = std::pow(10.0, -k) / 3;
-      if (piece.from == 0) add(near);
-      if (piece.to == 1) add(1 - near);
+      if (from == 0 && bends(segment)) add(near);
+      if (to == 1 && bends(cage_.next(segment))) add(1 - near);
     }
   }
-  Points points;
-  for (const BoundaryPoint& place : samples) points.push_back(position_of(boundary_, place));
-  const MatrixXc basis = this->basis(points, 0);
-  const MatrixXd targets =
-      parts_.values(on_cage) - matrix_product(logarithms(points, 0), log_coefficients_).real();
+  return samples;
+}
 
-  MatrixXd rows(basis.rows(), 2 * basis.cols());
-  rows << basis.real(), -basis.imag();
-  rows.rightCols(static_cast<Index>(hole_centers_.size())).setZero();  // not single-valued
-  const VectorXd norms = rows.colwise().norm().cwiseMax(1e-300);
-  rows *= norms.cwiseInverse().asDiagonal();
-  MatrixXd gram = MatrixXd::Zero(rows.cols(), rows.cols());
-  add_gram(rows.transpose(), rows.rows(), 0, gram);
+Cage HilbertCoordinates::divided() const {
+  Cage boundary;
+  for (const auto& [segment, from, to] : pieces_) {
+    if (from == 0 && std::ranges::binary_search(cage_.holes, segment))
+      boundary.holes.push_back(boundary.size());
+    Points controls = part_of(cage_.controls(segment), from, to);
+    controls = elevated(controls, std::max(kDegree, static_cast<int>(controls.size()) - 1));
+    controls.pop_back();
+    boundary.segments.push_back(std::move(controls));
+  }
+  return boundary;
+}
+
+/// The functions at the samples, one column per sample.
+struct HilbertCoordinates::Rows {
+  MatrixXd unknowns;    ///< real parts, and below them, negative imaginary parts
+  MatrixXd logarithms;  ///< imaginary parts of the logarithms at vertices, as many as there are
+};
+
+HilbertCoordinates::Rows HilbertCoordinates::rows_at(const Points& points) const {
+  const Index count = static_cast<Index>(points.size()), unknowns = this->unknowns(),
+              holes = static_cast<Index>(hole_centers_.size());
+  Rows rows{MatrixXd(2 * unknowns, count), MatrixXd(static_cast<Index>(logarithms_.size()), count)};
+  constexpr Index kBlock = 256;
+  parallel_for(static_cast<int>((count + kBlock - 1) / kBlock), [&](int block) {
+    const Index first = block * kBlock, size = std::min(kBlock, count - first);
+    const MatrixXc values = functions_.values(
+        std::span(points).subspan(static_cast<size_t>(first), static_cast<size_t>(size)), 0);
+    rows.unknowns.block(0, first, unknowns, size) =
+        values(Eigen::all, unknowns_).real().transpose();
+    rows.unknowns.block(unknowns, first, unknowns, size) =
+        -values(Eigen::all, unknowns_).imag().transpose();
+    rows.logarithms.middleCols(first, size) = values(Eigen::all, logarithms_).imag().transpose();
+  });
+  rows.unknowns.bottomRows(holes).setZero();  // not single-valued
+  return rows;
+}
+
+/// Fits all coordinates; returns each piece's largest error.
+std::vector<double> HilbertCoordinates::solve(double tolerance) {
+  const Cage boundary = divided();
+  functions_ = HilbertFunctions(boundary, vertices_, hole_centers_, size_);
+  const Samples samples = this->samples();
+  Points points;
+  for (const BoundaryPoint& place : samples.on_pieces)
+    points.push_back(position_of(boundary, place));
+  set_up_columns();
+  auto [rows, logarithms] = rows_at(points);
+  // Each coordinate jumps at few vertices and is zero on most of the boundary.
+  const SparseMatrix slopes = slopes_.sparseView(),
+                     values = parts_.values(samples.on_cage).sparseView();
+  const MatrixXd targets = logarithms.transpose() * slopes + MatrixXd(values);
+
+  const VectorXd norms = rows.rowwise().norm().cwiseMax(1e-300);
+  rows.array().colwise() /= norms.array();
+  MatrixXd gram = MatrixXd::Zero(rows.rows(), rows.rows());
+  add_gram(rows, rows.cols(), 0, gram);
   gram.diagonal().array() += 1e-14 * static_cast<double>(gram.rows());
   Cholesky cholesky;
   check(cholesky.factor(gram), "Hilbert coordinates: the normal equations are definite");
-  MatrixXd x = cholesky.solve_all(transposed_matrix_product(rows, targets));
-  MatrixXd off = targets - matrix_product(rows, x);
+  const MatrixXd right = rows * values + matrix_product(rows, logarithms.transpose()) * slopes;
+  MatrixXd x = cholesky.solve_all(right);
+  MatrixXd off = targets - transposed_matrix_product(rows, x);
   // The normal equations lose digits. Refining them rarely spares a round.
   for (int refined = 0; refined < kRefinements && off.cwiseAbs().maxCoeff() > tolerance;
        ++refined) {
-    x += cholesky.solve_all(transposed_matrix_product(rows, off));
-    off = targets - matrix_product(rows, x);
+    x += cholesky.solve_all(matrix_product(rows, off));
+    off = targets - transposed_matrix_product(rows, x);
   }
   std::vector<double> errors(pieces_.size(), 0);
+  const VectorXd largest = off.rowwise().lpNorm<Eigen::Infinity>();
   for (Index i = 0; i < off.rows(); ++i) {
-    double& error = errors[static_cast<size_t>(samples[static_cast<size_t>(i)].segment)];
-    error = std::max(error, off.row(i).cwiseAbs().maxCoeff());
+    double& error = errors[static_cast<size_t>(samples.on_pieces[static_cast<size_t>(i)].segment)];
+    error = std::max(error, largest[i]);
   }
   x.array().colwise() /= norms.array();
-  coefficients_ = x.topRows(basis.cols()) + kI * x.bottomRows(basis.cols());
+  coefficients_.resize(functions_.count(), x.cols());
+  coefficients_(unknowns_, Eigen::all) = x.topRows(unknowns()) + kI * x.bottomRows(unknowns());
+  coefficients_(logarithms_, Eigen::all) = kI * slopes_;
   error_ = *std::ranges::max_element(errors);
   return errors;
 }
 
-HilbertCoordinates::Singular HilbertCoordinates::singular(const Vertex& vertex, Complex z) {
-  const Complex ratio = quotient(z - vertex.at, z - vertex.tip);
-  Singular at{{0.5 * std::log(std::norm(ratio)), std::atan2(ratio.imag(), ratio.real())}, {}};
-  for (size_t k = 0; k < vertex.powers.size(); ++k) {
-    const double power = vertex.powers[k];
-    at.powers[k] = vertex.lower[k] >= 0
-                       ? times(ratio, at.powers[static_cast<size_t>(vertex.lower[k])])
-                       : std::polar(std::exp(power * at.log.real()), power * at.log.imag());
-  }
-  return at;
+void HilbertCoordinates::set_up_columns() {
+  unknowns_.clear();
+  logarithms_.clear();
+  for (Index column = 0; column < functions_.count(); ++column)
+    (functions_.is_logarithm(column) ? logarithms_ : unknowns_).push_back(column);
 }
 
-MatrixXc HilbertCoordinates::logarithms(std::span<const Complex> points, int order) const {
-  MatrixXc values =
-      MatrixXc::Zero(static_cast<Index>(points.size()), static_cast<Index>(vertices_.size()));
-  for (size_t j = 0; j < vertices_.size(); ++j) {
-    const Index column = static_cast<Index>(j);
-    if (log_coefficients_.row(column).isZero(0)) continue;
-    for (size_t i = 0; i < points.size(); ++i)
-      values(static_cast<Index>(i), column) =
-          order == 0 ? singular(vertices_[j], points[i]).log
-                     : logarithmic_slope(vertices_[j].at, vertices_[j].tip, points[i]);
-  }
-  return values;
+void HilbertCoordinates::for_each_group(std::span<const Complex> points, int order,
+                                        const HilbertFunctions::VisitGroup& visit) const {
+  check(order == 0 || order == 1, "Hilbert coordinates: order 0 or 1");
+  functions_.for_each_group(points, coefficients_, order,
+                            [&](const PointGroup& group, MatrixXc& sums) {
+                              const MatrixXc exact = linear_functions(group.points, order);
+                              sums.real() += exact.real() * linear_weights_;
+                              sums.imag() += exact.imag() * linear_weights_;
+                              visit(group, sums);
+                            });
 }
-
-MatrixXc HilbertCoordinates::basis(std::span<const Complex> points, int order) const {
-  const MatrixXc cauchy = as_complex(planar_coordinates<double>(boundary_, points, order));
-  Index column = cauchy.cols(), powers = 0;
-  for (const Vertex& vertex : vertices_) powers += static_cast<Index>(vertex.powers.size());
-  const Index holes = static_cast<Index>(hole_centers_.size());
-  MatrixXc basis(cauchy.rows(), cauchy.cols() + powers + holes);
-  basis.leftCols(cauchy.cols()) = cauchy;
-  for (const Vertex& vertex : vertices_) {
-    for (size_t i = 0; i < points.size() && !vertex.powers.empty(); ++i) {
-      const Singular at = singular(vertex, points[i]);
-      const Complex slope = logarithmic_slope(vertex.at, vertex.tip, points[i]);
-      for (size_t k = 0; k < vertex.powers.size(); ++k)
-        basis(static_cast<Index>(i), column + static_cast<Index>(k)) =
-            order == 0 ? at.powers[k] : vertex.powers[k] * slope * at.powers[k];
-    }
-    column += static_cast<Index>(vertex.powers.size());
-  }
-  for (const Complex& center : hole_centers_) {
-    for (size_t i = 0; i < points.size(); ++i) {
-      const Complex z = points[i] - center;
-      basis(static_cast<Index>(i), column) = order == 0 ? std::log(z / size_) : inverse(z);
-    }
-    ++column;
-  }
-  return basis;
-}
-
-namespace {
-
-constexpr size_t kBlock = 1024;  // rows of the basis that fit into the cache
-
-/// Calls `visit` with the first row and the points of each block.
-void for_each_block(std::span<const Complex> points,
-                    const std::function<void(Index, std::span<const Complex>)>& visit) {
-  for (size_t first = 0; first < points.size(); first += kBlock)
-    visit(static_cast<Index>(first),
-          points.subspan(first, std::min(kBlock, points.size() - first)));
-}
-
-}  // namespace
 
 MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) const {
-  check(order == 0 || order == 1, "Hilbert coordinates: order 0 or 1");
   MatrixXc values(static_cast<Index>(points.size()), coefficients_.cols());
-  for_each_block(points, [&](Index first, std::span<const Complex> some) {
-    values.middleRows(first, static_cast<Index>(some.size())) = block(some, order);
+  for_each_group(points, order, [&](const PointGroup& group, const MatrixXc& rows) {
+    values(group.indices, Eigen::all) = rows;
   });
   return values;
 }
 
-MatrixXd HilbertCoordinates::real_parts(std::span<const Complex> points) const {
-  const Index logs = log_coefficients_.rows(), all = logs + coefficients_.rows();
-  MatrixXd factors(2 * all, coefficients_.cols());
-  factors << log_coefficients_.real(), coefficients_.real(), -log_coefficients_.imag(),
-      -coefficients_.imag();
-  const MatrixXd linear = parts_.linear;
-  MatrixXd parts(static_cast<Index>(points.size()), coefficients_.cols());
-  for_each_block(points, [&](Index first, std::span<const Complex> some) {
-    MatrixXc functions(static_cast<Index>(some.size()), all);
-    functions << logarithms(some, 0), basis(some, 0);
-    MatrixXd halves(functions.rows(), 2 * all);
-    halves << functions.real(), functions.imag();
-    const MatrixXd values = matrix_product(halves, factors);
-    const MatrixXd missing = linear_functions(some, 0).real() - values * linear;
-    parts.middleRows(first, values.rows()) = values + missing * correction_weights_;
-  });
-  return parts;
-}
-
-MatrixXc HilbertCoordinates::block(std::span<const Complex> points, int order) const {
-  const MatrixXc values = matrix_product(logarithms(points, order), log_coefficients_) +
-                          matrix_product(basis(points, order), coefficients_);
-  const MatrixXc missing = linear_functions(points, order) - values * parts_.linear;
-  return values + missing * correction_weights_;
-}
-
-// With v = at(points) and the weights w, block() gives v w + (exact - v linear) c, where c are the
-// corrected sums. This is v (w - linear c) + exact c.
 HilbertCoordinates::Sum HilbertCoordinates::sum(const VectorXd& weights) const {
-  const VectorXd corrected = correction_weights_ * weights,
-                 left = weights - parts_.linear * corrected;
-  return {log_coefficients_ * left, coefficients_ * left, corrected};
+  return {coefficients_ * weights, linear_weights_ * weights};
 }
 
 VectorXc HilbertCoordinates::values(std::span<const Complex> points, const Sum& sum) const {
-  VectorXc values(static_cast<Index>(points.size()));
-  const Index smooth = boundary_.control_count();
-  const VectorXc on_boundary = sum.basis.head(smooth);
-  for_each_block(points, [&](Index first, std::span<const Complex> some) {
-    values.segment(first, static_cast<Index>(some.size())) =
-        product(planar_coordinates<double>(boundary_, some), on_boundary) +
-        linear_functions(some, 0) * sum.linear;
-  });
-  Index column = smooth;
-  for (size_t j = 0; j < vertices_.size(); ++j) {
-    const Vertex& vertex = vertices_[j];
-    const Complex jump = sum.logarithms[static_cast<Index>(j)];
-    const Index powers = static_cast<Index>(vertex.powers.size());
-    for (size_t i = 0; i < points.size() && (jump != Complex(0) || powers > 0); ++i) {
-      const Singular at = singular(vertex, points[i]);
-      Complex here = jump == Complex(0) ? jump : times(jump, at.log);
-      for (Index k = 0; k < powers; ++k)
-        here += times(sum.basis[column + k], at.powers[static_cast<size_t>(k)]);
-      values[static_cast<Index>(i)] += here;
-    }
-    column += powers;
-  }
-  for (const Complex& center : hole_centers_) {
-    for (size_t i = 0; i < points.size(); ++i)
-      values[static_cast<Index>(i)] += sum.basis[column] * std::log((points[i] - center) / size_);
-    ++column;
-  }
+  VectorXc values = linear_functions(points, 0) * sum.linear;
+  functions_.for_each_group(
+      points, sum.functions, 0,
+      [&](const PointGroup& group, const MatrixXc& sums) { values(group.indices) += sums.col(0); });
   return values;
 }
 

@@ -7,10 +7,9 @@
 // real coefficient; only its real part is single-valued.
 #pragma once
 
-#include <array>
 #include <functional>
 
-#include "core/geometry/cage.h"
+#include "core/angles/hilbert_functions.h"
 
 namespace holomorph {
 
@@ -40,7 +39,7 @@ class HilbertCoordinates {
   /// The inner angle at a vertex, in (0, 2 pi).
   double angle(Index vertex) const { return vertices_[static_cast<size_t>(vertex)].angle; }
   /// The number of unknowns of each coordinate.
-  Index unknowns() const { return coefficients_.rows(); }
+  Index unknowns() const { return static_cast<Index>(unknowns_.size()); }
   /// The largest error of the coordinates' real parts at the fitted points.
   double error() const { return error_; }
 
@@ -49,62 +48,54 @@ class HilbertCoordinates {
   /// finite, and neither are coordinates whose real parts jump there. The coordinates are
   /// determined up to imaginary constants. In cages with holes, only their real parts and their
   /// derivatives are single-valued. Their sums with the weights `linear` are 1, z and -i z
-  /// up to rounding. Cost per point: a row of Cauchy coordinates, and `unknowns` multiplications
-  /// per column.
+  /// up to rounding. Cost per point: at most a row of Cauchy coordinates, and `unknowns`
+  /// multiplications per column; a fifth for many points in a cage of many vertices.
   MatrixXc at(std::span<const Complex> points, int order = 0) const;
-  /// Their real parts, in half the time.
-  MatrixXd real_parts(std::span<const Complex> points) const;
+  /// The same by groups of points: calls `visit` on all cores, and needs less memory.
+  void for_each_group(std::span<const Complex> points, int order,
+                      const HilbertFunctions::VisitGroup& visit) const;
 
   /// The sum of all coordinates with fixed weights: one function, whose values take less time.
   struct Sum {
-    VectorXc logarithms, basis, linear;  ///< coefficients
+    VectorXc functions, linear;  ///< coefficients
   };
   Sum sum(const VectorXd& weights) const;
-  /// The values at(points) * weights of a sum. Cost per point: a row of Cauchy coordinates.
+  /// The values at(points) * weights of a sum. Cost per point: at most a row of Cauchy coordinates.
   VectorXc values(std::span<const Complex> points, const Sum& sum) const;
 
  private:
-  static constexpr size_t kMostPowers = 6;
-  struct Vertex {
-    Complex at, tip;   ///< the ends of the branch cut outside the cage; `at` is the vertex
-    double angle = 0;  ///< the inner angle
-    std::vector<double> powers;  ///< exponents of (z - at) / (z - tip), increasing
-    std::vector<int> lower;  ///< for each power, the index of the power that is less by 1, or -1
-  };
+  using Vertex = HilbertFunctions::Vertex;
   /// The part of a segment between two parameters.
   struct Piece {
     Index segment;
     double from, to;
   };
 
-  /// ln((z - at) / (z - tip)), with its branch cut between both points, and the powers of that
-  /// ratio.
-  struct Singular {
-    Complex log;
-    std::array<Complex, kMostPowers> powers;
-  };
-  static Singular singular(const Vertex& vertex, Complex z);
-  MatrixXc block(std::span<const Complex> points, int order) const;
   /// The functions 1, z and -i z, as many as `linear` has columns, or their derivatives.
   MatrixXc linear_functions(std::span<const Complex> points, int order) const;
+  bool bends(Index vertex) const;
   void set_up_vertices();
   void refine(const std::vector<double>& errors, double tolerance);
+  /// The boundary, divided into the pieces.
+  Cage divided() const;
+  struct Samples;
+  Samples samples() const;
+  struct Rows;
+  Rows rows_at(const Points& points) const;
+  void set_up_columns();
   std::vector<double> solve(double tolerance);
-  /// The logarithms that produce the jumps, one column per vertex.
-  MatrixXc logarithms(std::span<const Complex> points, int order) const;
-  /// The Cauchy coordinates, the powers and the logarithms of holes, one column per unknown.
-  MatrixXc basis(std::span<const Complex> points, int order) const;
 
   Cage cage_;
   RealParts parts_;
-  MatrixXd correction_weights_;  ///< weights that make the sums with `linear` exact
-  MatrixXc log_coefficients_;    ///< coefficients of the logarithms, a column per coordinate
+  MatrixXd linear_weights_;  ///< of the linear functions, a column per coordinate
   std::vector<Vertex> vertices_;
   Points hole_centers_;
   double size_ = 1;  ///< of the cage
   std::vector<Piece> pieces_;
-  Cage boundary_;          ///< the pieces as segments of degree 3 or more
-  MatrixXc coefficients_;  ///< coefficients of the basis, a column per coordinate
+  HilbertFunctions functions_;
+  std::vector<Index> logarithms_, unknowns_;  ///< the columns of the vertices' logarithms, others
+  MatrixXd slopes_;        ///< the logarithms' coefficients over i, a column per coordinate
+  MatrixXc coefficients_;  ///< of all functions, a column per coordinate
   double error_ = 0;
 };
 

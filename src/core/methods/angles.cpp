@@ -118,6 +118,11 @@ class AnglePoints final : public PointMap {
   VectorXc at_vertices_;
 };
 
+Points joined(Points first, const Points& then) {
+  first.insert(first.end(), then.begin(), then.end());
+  return first;
+}
+
 class AnglesDeformer final : public Deformer {
  public:
   /// `coordinates` belong to the same cage and corners, or are null.
@@ -129,8 +134,8 @@ class AnglesDeformer final : public Deformer {
                          ? std::move(coordinates)
                          : std::make_shared<const HilbertCoordinates>(
                                boundary_.cage, corner_values(boundary_.cage, boundary_.corners))),
-        map_(*rest_.mesh, coordinates_, rest_.samples, rest_.precision),
-        frame_(*rest_.mesh, coordinates_, rest_.precision),
+        frame_(boundary_.cage),
+        map_(*rest_.mesh, coordinates_, joined(rest_.samples, frame_.samples()), rest_.precision),
         acting_(usable_pins(rest_)) {
     if (parameter(method_named("angles"), rest_.parameters, "published") != 0)
       published_.emplace(boundary_.cage, boundary_.corners, map_.anchor());
@@ -158,10 +163,8 @@ class AnglesDeformer final : public Deformer {
       out.fzbar = VectorXc::Zero(count);
       return out;
     }
-    const PlacedAngles placed = place(pose, options.draft, dynamic_cast<const Found*>(from), out);
+    const auto [placed, f] = place(pose, options.draft, dynamic_cast<const Found*>(from), out);
     if (published_) return answer_as_published(placed, options, std::move(out));
-    VectorXc f;
-    map_.map(placed.theta, f, options.draft);
     out.f = (placed.scale * f).array() + placed.move;
     const Index lost = count - out.f.array().isFinite().count();
     if (lost > 0) say(out, std::to_string(lost) + " points are bent too far to compute");
@@ -178,9 +181,7 @@ class AnglesDeformer final : public Deformer {
     if (published_) return nullptr;
     AnglesDeformer whole = on_whole_mesh();
     SampledMap ignored;
-    const PlacedAngles placed = whole.place(pose, false, nullptr, ignored);
-    VectorXc f;
-    whole.map_.map(placed.theta, f);
+    auto [placed, f] = whole.place(pose, false, nullptr, ignored);
     return std::make_unique<AnglePoints>(rest_.mesh, std::move(whole.map_), placed, std::move(f));
   }
 
@@ -225,17 +226,26 @@ class AnglesDeformer final : public Deformer {
     });
   }
 
-  PlacedAngles place(const Pose& pose, bool draft, const Found* from, SampledMap& out) {
+  /// The angles of a pose, and AngleMap::map at the samples.
+  struct Placed {
+    PlacedAngles angles;
+    VectorXc f;
+  };
+  Placed place(const Pose& pose, bool draft, const Found* from, SampledMap& out) {
     const Cage posed = boundary_.posed(elevated_to(pose.cage, rest_.cage));
     BoundaryAngles angles =
         boundary_angles(boundary_.cage, posed, boundary_.corners, boundary_.own(pose.corners));
-    PlacedAngles placed = frame_.place(angles.theta, posed);
+    const Index count = static_cast<Index>(rest_.samples.size());
+    VectorXc f;
+    map_.map(angles.theta, f, draft);
+    PlacedAngles placed = frame_.place(angles.theta, f.tail(f.size() - count), posed);
     std::set<Index> limited(angles.limited.begin(), angles.limited.end());
     if (pins_) {
       std::vector<PosePin> targets;
       for (const size_t i : acting_.used) targets.push_back(pose.pins[i]);
       const AnglePins::Answer answer =
           pins_->pull(targets, draft, from ? &from->unknowns : nullptr, placed);
+      map_.map(placed.theta, f, draft);
       const auto found = std::make_shared<Found>();
       found->unknowns = answer.unknowns;
       out.solution = found;
@@ -254,7 +264,7 @@ class AnglesDeformer final : public Deformer {
     if (!list.empty())
       say(out, (limited.size() == 1 ? "Corner " : "Corners ") + list +
                    " held at 5 degrees to avoid a fold");
-    return placed;
+    return {std::move(placed), f.head(count)};
   }
 
   static void say(SampledMap& out, const std::string& text) {
@@ -275,8 +285,8 @@ class AnglesDeformer final : public Deformer {
   Rest rest_;
   Boundary boundary_;
   std::shared_ptr<const HilbertCoordinates> coordinates_;
-  AngleMap map_;
   AngleFrame frame_;
+  AngleMap map_;  ///< at the samples of the rest, and then at those of the frame
   UsablePins acting_;
   std::optional<AnglePins> pins_;
   std::optional<PublishedAngles> published_;  ///< the published map, used for comparison

@@ -32,7 +32,7 @@ class HarmonicCoordinates final : public RealCoordinates {
 
   MatrixXd values(std::span<const Complex> points) const override {
     const Continued continued = continuation(points, 0);
-    MatrixXd h = hilbert_.real_parts(continued.places);
+    MatrixXd h = hilbert_.at(continued.places).real();
     if (continued.outside.empty()) return h;
     const MatrixXc slopes = hilbert_.at(continued.slope_places, 1);
     for (size_t k = 0; k < continued.outside.size(); ++k)
