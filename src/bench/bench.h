@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@ namespace holomorph::bench {
 
 struct Result {
   std::string name, unit;
-  double median = 0, goal = 0;  ///< a goal of 0 means no goal
+  double median = 0;
+  std::optional<double> goal = {};  ///< at most
   int runs = 0;
   std::string detail = {};  ///< further results, as text
 };

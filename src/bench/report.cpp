@@ -64,9 +64,9 @@ std::string line_of(const Result& result) {
   std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median,
                 result.unit.c_str());
   std::string line = text;
-  if (result.goal > 0) {
-    std::snprintf(text, sizeof text, "  (goal %g%s)", result.goal,
-                  result.median <= result.goal ? "" : ", missed");
+  if (result.goal) {
+    std::snprintf(text, sizeof text, "  (goal %g%s)", *result.goal,
+                  result.median <= *result.goal ? "" : ", missed");
     line += text;
   }
   if (!result.detail.empty()) line += "  " + result.detail;
@@ -81,7 +81,8 @@ std::string json_of(const std::vector<Result>& results, const Machine& machine) 
   for (const Result& result : results)
     json += std::string(&result == results.data() ? "\n" : ",\n") +
             "    {\"name\": " + quoted(result.name) + ", \"unit\": " + quoted(result.unit) +
-            ", \"median\": " + number(result.median) + ", \"goal\": " + number(result.goal) +
+            ", \"median\": " + number(result.median) +
+            ", \"goal\": " + (result.goal ? number(*result.goal) : "null") +
             ", \"runs\": " + std::to_string(result.runs) +
             ", \"detail\": " + quoted(result.detail) + "}";
   return json + "\n  ]\n}\n";

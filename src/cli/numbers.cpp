@@ -111,11 +111,15 @@ void run(const InverseCommand& command) {
     if (!inverse)
       throw Error(ErrorKind::bad_input,
                   "method '" + scene.deformation().method + "' has no inverse");
-    constexpr size_t kBlock = 8192;  // limits the memory, and lets the progress be shown
+    constexpr size_t kBlock = 8192;  // limits the memory
     for (size_t from = 0; from < points.size(); from += kBlock) {
-      progress.step(k * points.size() + from, moments.size() * points.size());
       const size_t count = std::min(kBlock, points.size() - from);
-      const auto found = inverse->at(std::span(points).subspan(from, count));
+      const auto step = [&](size_t searched) {
+        progress.step(k * points.size() + from + std::min(searched, count),
+                      moments.size() * points.size());
+      };
+      step(0);
+      const auto found = inverse->at(std::span(points).subspan(from, count), step);
       for (size_t i = 0; i < count; ++i)
         out.write(preimage_lines(
             found[i],

@@ -166,7 +166,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
 void Motion::align(const Deformation& deformation) {
   shapes_.clear();
   slopes_.reset();
-  still_.reset();
+  least_moving_.reset();
   interval_.reset();
   Inbetween::Shape before;
   for (size_t i = 0; i < keys_.size(); ++i) {
@@ -324,11 +324,11 @@ VectorXc Motion::map_at(double time) {
     f = (1 - share) * from.f + share * to.f;
   } else {
     const Slopes* slopes = smooth ? &slopes_from(i) : nullptr;
-    if (!still_ || still_->first != i)
-      still_ = {i, least_moving_point(between_->mesh(), from.f, to.f)};
+    if (!least_moving_ || least_moving_->first != i)
+      least_moving_ = {i, least_moving_point(between_->mesh(), from.f, to.f)};
     between_->blend(
         {shape_at(i), shape_at(i + 1), to.time - from.time, slopes ? &slopes->at_from : nullptr,
-         slopes ? &slopes->at_to : nullptr, &still_->second},
+         slopes ? &slopes->at_to : nullptr, &least_moving_->second},
         u, f);
   }
   return f;

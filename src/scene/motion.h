@@ -121,7 +121,7 @@ class Motion {
   std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
   std::optional<Slopes> slopes_;
   /// The least_moving_point of the interval from a key.
-  std::optional<std::pair<size_t, Location>> still_;
+  std::optional<std::pair<size_t, Location>> least_moving_;
   std::shared_ptr<const ProvedMotion> proved_;  ///< null if the method proves nothing
   struct KnownInterval {
     size_t from = 0;

@@ -95,13 +95,17 @@ FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,
   return fine_map(prepared_->rest.cage, *drawn, tolerance, values_at);
 }
 
-std::vector<std::vector<Preimage>> TimedMap::Inverse::at(std::span<const Complex> points) const {
+std::vector<std::vector<Preimage>> TimedMap::Inverse::at(
+    std::span<const Complex> points, const std::function<void(size_t)>& progress) const {
   constexpr size_t kBlock = 64;
   std::vector<std::vector<Preimage>> found(points.size());
-  parallel_for(static_cast<int>((points.size() + kBlock - 1) / kBlock), [&](int block) {
+  const auto find = [&](int block) {
     const size_t first = static_cast<size_t>(block) * kBlock;
     for (size_t i = first; i < std::min(first + kBlock, points.size()); ++i)
       found[i] = inverse.at(points[i]);
+  };
+  parallel_for(static_cast<int>((points.size() + kBlock - 1) / kBlock), find, [&](int blocks) {
+    if (progress) progress(static_cast<size_t>(blocks) * kBlock);
   });
   return found;
 }

@@ -61,8 +61,10 @@ class TimedMap {
     Inverse(std::unique_ptr<PointMap> of, const Cage& rest, const Mesh& mesh, const VectorXc& f)
         : map(std::move(of)), inverse(rest, mesh, as_span(f), *map) {}
 
-    /// The preimages of each point. Uses all cores.
-    std::vector<std::vector<Preimage>> at(std::span<const Complex> points) const;
+    /// The preimages of each point. Uses all cores. `progress` is called on this thread with the
+    /// number of points that have been searched for; an exception in it ends the work.
+    std::vector<std::vector<Preimage>> at(std::span<const Complex> points,
+                                          const std::function<void(size_t)>& progress = {}) const;
   };
   /// Null if the method evaluates its map only at samples. The TimedMap must outlive the result.
   std::unique_ptr<Inverse> inverse(const TimedFrame& frame) const;

@@ -4,6 +4,7 @@ import json
 import os
 import pty
 import random
+import re
 import resource
 import shutil
 import signal
@@ -347,6 +348,8 @@ class Files(Case):
         slow = ["inverse", FISH, "--points", points, "--out", self.path("o.csv")]
         said = said_on_a_terminal(*slow)
         self.assertRegex(said, r"inverse: point \d+ of 150000, \d+ s")
+        searched = {int(n) for n in re.findall(r"point (\d+) of", said)}
+        self.assertTrue(any(n % 8192 for n in searched), f"also within a block of points: {searched}")
         self.assertIn("\x1b[K", said.split(" s")[-1], "the line is cleared at the end")
         self.assertNotIn("point", run(*slow, **one_core).stderr)
         self.assertNotIn("\x1b", said_on_a_terminal("render", self.scene, "--frames", "0..2", "--out", self.path("o.png")))

@@ -17,10 +17,12 @@
 namespace holomorph {
 namespace {
 
-constexpr size_t kGroup = 256;  ///< most points
-constexpr size_t kBatch = 8;    ///< groups that one thread works on together
-constexpr Index kNodes = 24;    ///< on the circle around a group
-constexpr double kFar = 3;      ///< radii; a function that is singular there is known to 3^-kNodes
+constexpr size_t kGroupSize = 256;     ///< most points
+constexpr size_t kGroupsTogether = 8;  ///< groups that one thread works on together
+constexpr Index kCircleNodes = 24;     ///< on the circle around a group
+/// Functions that are singular this many radii from a group's center or farther away are known to
+/// 3^-kCircleNodes.
+constexpr double kFarRadii = 3;
 
 Complex logarithmic_slope(Complex at, Complex tip, Complex z) {
   return 1.0 / (z - at) - 1.0 / (z - tip);
@@ -28,9 +30,9 @@ Complex logarithmic_slope(Complex at, Complex tip, Complex z) {
 
 Points nodes_of(const PointGroup& group) {
   Points nodes;
-  for (Index k = 0; k < kNodes; ++k)
+  for (Index k = 0; k < kCircleNodes; ++k)
     nodes.push_back(group.center + std::polar(group.radius, 2 * kPi * static_cast<double>(k) /
-                                                                static_cast<double>(kNodes)));
+                                                                static_cast<double>(kCircleNodes)));
   return nodes;
 }
 
@@ -38,14 +40,14 @@ Points nodes_of(const PointGroup& group) {
 /// q = (z - center) / (node - center), its entries are the means of 1, q, q^2, ...
 MatrixXc interpolation(const PointGroup& group) {
   const Points nodes = nodes_of(group);
-  MatrixXc matrix(static_cast<Index>(group.points.size()), kNodes);
-  for (Index k = 0; k < kNodes; ++k)
+  MatrixXc matrix(static_cast<Index>(group.points.size()), kCircleNodes);
+  for (Index k = 0; k < kCircleNodes; ++k)
     for (Index i = 0; i < matrix.rows(); ++i) {
       const Complex q = quotient(group.points[static_cast<size_t>(i)] - group.center,
                                  nodes[static_cast<size_t>(k)] - group.center);
       Complex sum = 1;
-      for (Index power = 1; power < kNodes; ++power) sum = 1.0 + times(q, sum);
-      matrix(i, k) = sum / static_cast<double>(kNodes);
+      for (Index power = 1; power < kCircleNodes; ++power) sum = 1.0 + times(q, sum);
+      matrix(i, k) = sum / static_cast<double>(kCircleNodes);
     }
   return matrix;
 }
@@ -180,12 +182,14 @@ std::vector<Index> HilbertFunctions::singular_within(Complex center, double dist
 
 void HilbertFunctions::for_each_group(std::span<const Complex> points, const MatrixXc& coefficients,
                                       int order, const VisitGroup& visit) const {
-  const std::vector<PointGroup> groups = point_groups(points, kGroup);
-  parallel_for(static_cast<int>((groups.size() + kBatch - 1) / kBatch), [&](int batch) {
-    const size_t first = static_cast<size_t>(batch) * kBatch;
-    const auto some = std::span(groups).subspan(first, std::min(kBatch, groups.size() - first));
-    visit_batch(some, coefficients, order, visit);
-  });
+  const std::vector<PointGroup> groups = point_groups(points, kGroupSize);
+  parallel_for(
+      static_cast<int>((groups.size() + kGroupsTogether - 1) / kGroupsTogether), [&](int batch) {
+        const size_t first = static_cast<size_t>(batch) * kGroupsTogether;
+        const auto some =
+            std::span(groups).subspan(first, std::min(kGroupsTogether, groups.size() - first));
+        visit_batch(some, coefficients, order, visit);
+      });
 }
 
 void HilbertFunctions::visit_batch(std::span<const PointGroup> groups, const MatrixXc& coefficients,
@@ -197,10 +201,10 @@ void HilbertFunctions::visit_batch(std::span<const PointGroup> groups, const Mat
   std::vector<Far> interpolated;
   Points nodes;
   for (const PointGroup& group : groups) {
-    std::vector<Index> near = singular_within(group.center, kFar * group.radius);
+    std::vector<Index> near = singular_within(group.center, kFarRadii * group.radius);
     const Index count = static_cast<Index>(group.points.size()),
-                each = static_cast<Index>(near.size()) + kNodes;
-    if (group.radius == 0 || kNodes * count_ + count * each > count * count_) {
+                each = static_cast<Index>(near.size()) + kCircleNodes;
+    if (group.radius == 0 || kCircleNodes * count_ + count * each > count * count_) {
       MatrixXc sums = matrix_product(values(group.points, order), coefficients);
       visit(group, sums);
       continue;
@@ -212,17 +216,17 @@ void HilbertFunctions::visit_batch(std::span<const PointGroup> groups, const Mat
   MatrixXc far = values(nodes, order);
   Index first = 0;
   for (const auto& [group, near] : interpolated) {
-    for (const Index column : near) far.col(column).segment(first, kNodes).setZero();
-    first += kNodes;
+    for (const Index column : near) far.col(column).segment(first, kCircleNodes).setZero();
+    first += kCircleNodes;
   }
   const MatrixXc at_nodes = matrix_product(far, coefficients);
   first = 0;
   for (const auto& [group, near] : interpolated) {
-    MatrixXc sums = matrix_product(interpolation(*group), at_nodes.middleRows(first, kNodes));
+    MatrixXc sums = matrix_product(interpolation(*group), at_nodes.middleRows(first, kCircleNodes));
     if (!near.empty())
       sums += matrix_product(values_of(near, group->points, order), coefficients(near, Eigen::all));
     visit(*group, sums);
-    first += kNodes;
+    first += kCircleNodes;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "core/arithmetic.h"
 #include "core/error.h"
 
 namespace holomorph {
@@ -74,25 +75,23 @@ double isometric_energy_of(const Mesh& mesh, const VectorXc& f) {
 }
 
 LinearDerivatives derivatives_in(const Mesh& mesh, const Triangle& t, const VectorXc& f) {
-  const auto corner = [&](size_t k) { return mesh.vertices[static_cast<size_t>(t[k % 3])]; };
   LinearDerivatives at{};  // f_z and f_zbar times four times the triangle's area
-  for (size_t a = 0; a < 3; ++a) {
-    const Complex opposite = corner(a + 2) - corner(a + 1);
-    at.fz += -kI * std::conj(opposite) * f[t[a]];
-    at.fzbar += kI * opposite * f[t[a]];
+  for (int a = 0; a < 3; ++a) {
+    const Complex side = opposite_side(mesh, t, a);
+    at.fz += times(-kI * std::conj(side), f[t[a]]);
+    at.fzbar += times(kI * side, f[t[a]]);
   }
-  const double doubled = cross(corner(1) - corner(0), corner(2) - corner(0));
-  return {at.fz / (2 * doubled), at.fzbar / (2 * doubled)};
+  const double over = 1 / (4 * area_of(mesh, t));
+  return {at.fz * over, at.fzbar * over};
 }
 
 VertexDerivatives vertex_derivatives(const Mesh& mesh, const VectorXc& f) {
   const Index n = f.size();
   VertexDerivatives at{VectorXc::Zero(n), VectorXc::Zero(n)};
   VectorXd areas = VectorXd::Zero(n);
-  const auto position = [&](int v) { return mesh.vertices[static_cast<size_t>(v)]; };
   for (const Triangle& t : mesh.triangles) {
     const LinearDerivatives here = derivatives_in(mesh, t, f);
-    const double area = cross(position(t[1]) - position(t[0]), position(t[2]) - position(t[0]));
+    const double area = area_of(mesh, t);
     for (const int v : t) {
       at.fz[v] += area * here.fz;
       at.fzbar[v] += area * here.fzbar;

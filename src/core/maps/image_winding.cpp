@@ -43,8 +43,8 @@ std::optional<double> ImageWinding::turn(const Piece& piece, Complex w, int dept
   constexpr int kDeepest = 50;
   const double least = 10 * rounding_at(w, piece.from);
   if (depth == kDeepest || std::abs(piece.to - piece.from) + piece.bulge <= least) return {};
-  // Half an arc bulges less than the whole arc. If w is clear of the half by that much, the half's
-  // own bulge need not be known.
+  // Half an arc bulges about a quarter as much as the whole arc. If w is clear of the half by the
+  // estimate for the whole, the half's own bulge need not be known.
   const auto part = [&](const Arc& half, Complex from, Complex middle, Complex to) {
     const auto chord = turn_of_chord(from, to, piece.bulge, w);
     return chord ? chord : turn(piece_between(half, from, middle, to), w, depth + 1);

@@ -163,13 +163,13 @@ class Collapse {
 
   /// Moves `from` to its neighbor `to`, if that is possible.
   bool collapse(int from, int to) {
-    const auto beside =
+    const auto common =  // triangles
         std::ranges::count_if(around(from), [&](int i) { return has(triangle(i), to); });
-    if (beside == 0 || (on_boundary(from) && (!on_boundary(to) || beside != 1))) return false;
+    if (common == 0 || (on_boundary(from) && (!on_boundary(to) || common != 1))) return false;
     // If the ends have another common neighbor, the mesh would be pinched or a hole closed.
     std::vector<int> shared;
     std::ranges::set_intersection(neighbors(from), neighbors(to), std::back_inserter(shared));
-    if (std::ssize(shared) != beside || !keeps_shapes(from, to)) return false;
+    if (std::ssize(shared) != common || !keeps_shapes(from, to)) return false;
     if (on_boundary(from) && !keeps_boundary(from, to)) return false;
     for (const int i : std::exchange(around(from), {})) {
       Triangle& t = triangle(i);

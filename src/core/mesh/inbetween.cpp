@@ -17,11 +17,13 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
   std::map<std::pair<int, int>, int> triangle_left_of;
   for (Index i = 0; i < count; ++i) {
     const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
-    areas_[i] = 0.5 * cross(opposite(t, 2), opposite(t, 0));
+    areas_[i] = area_of(*mesh_, t);
     for (int a = 0; a < 3; ++a) {
       triangle_left_of[{t[a], t[(a + 1) % 3]}] = static_cast<int>(i);
       for (int b = 0; b < 3; ++b)
-        entries.push_back({t[a], t[b], dot(opposite(t, a), opposite(t, b)) / (8 * areas_[i])});
+        entries.push_back(
+            {t[a], t[b],
+             dot(opposite_side(*mesh_, t, a), opposite_side(*mesh_, t, b)) / (8 * areas_[i])});
     }
   }
   entries.push_back({0, 0, entries.front().value()});  // the first vertex stays at 0
@@ -64,7 +66,7 @@ Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
     const Triangle& t = mesh_->triangles[static_cast<size_t>(triangle)];
     Complex fz = 0, fzbar = 0;
     for (int a = 0; a < 3; ++a) {
-      const Complex e = opposite(t, a);
+      const Complex e = opposite_side(*mesh_, t, a);
       fz += times(-kI * std::conj(e), f[t[a]]);
       fzbar += times(kI * e, f[t[a]]);
     }
@@ -130,7 +132,7 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
     const Complex fz = 0.25 * std::polar(std::exp(logarithm.real()), logarithm.imag()),
                   fzbar = std::conj(times(nu, fz));
     for (int c = 0; c < 3; ++c) {
-      const Complex e = opposite(t, c);
+      const Complex e = opposite_side(*mesh_, t, c);
       right[t[c]] += times(kI * e, fz) + times(-kI * std::conj(e), fzbar);
     }
   }

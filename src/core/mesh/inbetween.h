@@ -70,11 +70,6 @@ class Inbetween {
   const Mesh& mesh() const { return *mesh_; }
 
  private:
-  Complex opposite(const Triangle& t, int corner) const {
-    return mesh_->vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
-           mesh_->vertices[static_cast<size_t>(t[(corner + 1) % 3])];
-  }
-
   std::shared_ptr<const Mesh> mesh_;
   /// Triangles, ordered such that each one except the first has an earlier neighbor.
   struct Visit {

@@ -25,6 +25,17 @@ struct Mesh {
   Loops boundary_loops() const { return {static_cast<Index>(boundary.size()), holes}; }
 };
 
+/// The side of a triangle opposite a corner (0, 1 or 2), counter-clockwise. Cost: constant.
+inline Complex opposite_side(const Mesh& mesh, const Triangle& t, int corner) {
+  return mesh.vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
+         mesh.vertices[static_cast<size_t>(t[(corner + 1) % 3])];
+}
+
+/// The area of a triangle of the mesh.
+inline double area_of(const Mesh& mesh, const Triangle& t) {
+  return 0.5 * cross(opposite_side(mesh, t, 2), opposite_side(mesh, t, 0));
+}
+
 /// Makes a mesh of the inside of a rest cage from the caller's own triangles, of either
 /// orientation. The triangles must form one piece that fills the cage, with the same holes, and no
 /// triangle may be flat. The boundary vertices must lie on the cage to within 1e-4 of the cage's

@@ -6,6 +6,7 @@
 
 #include "core/arithmetic.h"
 #include "core/error.h"
+#include "core/maps/distortion.h"
 #include "core/maps/mesh_point_map.h"
 #include "core/methods/handles.h"
 #include "core/methods/rigid_energy.h"
@@ -30,13 +31,13 @@ class ArapDeformer final : public Deformer {
     std::vector<Eigen::Triplet<Complex>> entries;
     for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const Triangle& t = mesh_.triangles[i];
-      const double area = area_of(t) / energy_.stiffness(i);
+      const double area = area_of(mesh_, t) / energy_.stiffness(i);
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
           // The product of the conjugated coefficient of a in f_zbar and the coefficient of b.
           // Adding a small part of the rigid energy makes the matrix definite.
           constexpr double kRigidPart = 1e-3;
-          const Complex ea = opposite(t, a), eb = opposite(t, b);
+          const Complex ea = opposite_side(mesh_, t, a), eb = opposite_side(mesh_, t, b);
           entries.push_back(
               {t[a], t[b],
                std::conj(ea) * eb / (16 * area) + kRigidPart * dot(ea, eb) / (8 * area)});
@@ -93,31 +94,14 @@ class ArapDeformer final : public Deformer {
       return found;
     }
     const bool continues = options.draft && before && before->f.size() == vertices();
-    found.f = continues ? before->f : start(targets);
-    out.iterations = minimize(targets, options, found.f, out.status);
+    Minimized least = minimized(targets, options, continues ? before->f : start(targets));
+    out.iterations = least.rounds;
+    if (least.still_moves) out.status = SampledMap::Status::iterating;
+    found.f = std::move(least.f);
     return found;
   }
 
   Index vertices() const { return static_cast<Index>(mesh_.vertices.size()); }
-  Complex opposite(const Triangle& t, int corner) const {
-    return mesh_.vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
-           mesh_.vertices[static_cast<size_t>(t[(corner + 1) % 3])];
-  }
-  double area_of(const Triangle& t) const { return 0.5 * cross(opposite(t, 2), opposite(t, 0)); }
-
-  struct Derivatives {
-    Complex fz, fzbar;
-  };
-  Derivatives derivatives_of(const Triangle& t, const VectorXc& f) const {
-    Derivatives d{0, 0};
-    for (int a = 0; a < 3; ++a) {
-      const Complex e = opposite(t, a), w = f[t[a]];
-      d.fz += times(-kI * std::conj(e), w);
-      d.fzbar += times(kI * e, w);
-    }
-    const double over = 1 / (4 * area_of(t));
-    return {d.fz * over, d.fzbar * over};
-  }
 
   /// The most conformal map, found by one linear solve.
   VectorXc start(const Points& targets) const { return conformal_.solve(energy_.pull(targets)); }
@@ -127,9 +111,12 @@ class ArapDeformer final : public Deformer {
     return vertices() > kManyVertices ? 1 : kDraftRounds;
   }
 
-  /// Returns the number of rounds. The status is `iterating` if the last round has still moved f.
-  int minimize(const Points& targets, const EvalOptions& options, VectorXc& f,
-               SampledMap::Status& status) const {
+  struct Minimized {
+    VectorXc f;
+    int rounds = 0;
+    bool still_moves = false;  ///< whether the last round has moved f
+  };
+  Minimized minimized(const Points& targets, const EvalOptions& options, VectorXc f) const {
     int round = 0;
     double moved = HUGE_VAL;
     for (; round < most_rounds(options) && moved > kSmallestMove * size_; ++round) {
@@ -138,15 +125,19 @@ class ArapDeformer final : public Deformer {
       energy_.cycle(targets, f);
       moved = (f - before).cwiseAbs().maxCoeff();
     }
-    if (moved > kSmallestMove * size_) status = SampledMap::Status::iterating;
-    return round;
+    return {std::move(f), round, moved > kSmallestMove * size_};
   }
 
   void answer(const Found& found, SampledMap& out, EvalOptions options) const {
     const Index count = static_cast<Index>(rest_.samples.size());
     if (rest_.samples == mesh_.vertices) {
       out.f = found.f;
-      if (options.derivatives) average_derivatives(found, out);
+      if (!options.derivatives) return;
+      VertexDerivatives at = found.turn ? VertexDerivatives{VectorXc::Constant(count, *found.turn),
+                                                            VectorXc::Zero(count)}
+                                        : vertex_derivatives(mesh_, found.f);
+      out.fz = std::move(at.fz);
+      out.fzbar = std::move(at.fzbar);
       return;
     }
     out.f.resize(count);
@@ -154,37 +145,14 @@ class ArapDeformer final : public Deformer {
     out.fzbar.resize(count);
     for (Index i = 0; i < count; ++i) {
       const Location& at = places_[static_cast<size_t>(i)];
-      const Derivatives d =
-          found.turn ? Derivatives{*found.turn, 0}
-                     : derivatives_of(mesh_.triangles[static_cast<size_t>(at.triangle)], found.f);
+      const LinearDerivatives d =
+          found.turn
+              ? LinearDerivatives{*found.turn, 0}
+              : derivatives_in(mesh_, mesh_.triangles[static_cast<size_t>(at.triangle)], found.f);
       out.f[i] = at.in(mesh_, as_span(found.f));
       out.fz[i] = d.fz;
       out.fzbar[i] = d.fzbar;
     }
-  }
-
-  /// The derivatives at a vertex are the mean over its triangles, weighted by area.
-  void average_derivatives(const Found& found, SampledMap& out) const {
-    const Index n = found.f.size();
-    if (found.turn) {
-      out.fz = VectorXc::Constant(n, *found.turn);
-      out.fzbar = VectorXc::Zero(n);
-      return;
-    }
-    out.fz = VectorXc::Zero(n);
-    out.fzbar = VectorXc::Zero(n);
-    VectorXd areas = VectorXd::Zero(n);
-    for (const Triangle& t : mesh_.triangles) {
-      const Derivatives d = derivatives_of(t, found.f);
-      const double area = area_of(t);
-      for (const int v : t) {
-        out.fz[v] += area * d.fz;
-        out.fzbar[v] += area * d.fzbar;
-        areas[v] += area;
-      }
-    }
-    out.fz.array() /= areas.array();
-    out.fzbar.array() /= areas.array();
   }
 
   Rest rest_;

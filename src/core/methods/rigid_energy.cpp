@@ -15,11 +15,6 @@ constexpr double kHandleWeight = 1e3;  ///< relative to the energy's mean diagon
 constexpr size_t kCoarsening = 8, kFewest = 100;
 constexpr int kCoarseCycles = 2, kCoarsestIterations = 30;
 
-Complex opposite(const Mesh& mesh, const Triangle& t, int corner) {
-  return mesh.vertices[static_cast<size_t>(t[(corner + 2) % 3])] -
-         mesh.vertices[static_cast<size_t>(t[(corner + 1) % 3])];
-}
-
 }  // namespace
 
 /// The energy on the next coarser mesh, and how values pass between the meshes.
@@ -60,8 +55,8 @@ struct RigidEnergy::Coarser {
   RigidEnergy energy;
 
  private:
-  /// The finer mesh's handles as sums of this mesh's vertices. Any other choice of handles would
-  /// move the minimum.
+  /// The finer mesh's handles as sums of this mesh's vertices. With any other choice of
+  /// handles, cycles would not converge to the finer mesh's minimum.
   std::vector<Handle> restricted_handles(const Mesh& mesh, const std::vector<Handle>& fine) const {
     std::vector<Handle> found;
     for (const Handle& handle : fine) {
@@ -93,10 +88,11 @@ RigidEnergy::RigidEnergy(std::shared_ptr<const Mesh> shared, std::span<const Bru
     const Complex middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
     stiffness_.push_back(std::pow(10, stiffness_level(stiffness, middle)));
     stiffest = std::max(stiffest, stiffness_.back());
-    const double area = 0.5 * cross(opposite(mesh, t, 2), opposite(mesh, t, 0));
+    const double area = area_of(mesh, t);
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
-        const double weight = dot(opposite(mesh, t, a), opposite(mesh, t, b)) / (8 * area);
+        const double weight =
+            dot(opposite_side(mesh, t, a), opposite_side(mesh, t, b)) / (8 * area);
         entries.push_back({t[a], t[b], weight * stiffness_.back()});
         if (a == b) diagonal += weight;
       }
@@ -141,7 +137,7 @@ VectorXc RigidEnergy::rotations_of(const VectorXc& f) const {
   for (Index i = 0; i < rotations.size(); ++i) {
     const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
     Complex fz = 0;  // times a positive factor
-    for (int a = 0; a < 3; ++a) fz += times(-kI * std::conj(opposite(*mesh_, t, a)), f[t[a]]);
+    for (int a = 0; a < 3; ++a) fz += times(-kI * std::conj(opposite_side(*mesh_, t, a)), f[t[a]]);
     const double size = std::sqrt(std::norm(fz));
     rotations[i] = size > 0 ? fz / size : Complex(1);
   }
@@ -153,7 +149,7 @@ VectorXc RigidEnergy::turned_by(const VectorXc& rotations) const {
   for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
     const Triangle& t = mesh_->triangles[i];
     const Complex turn = 0.25 * stiffness_[i] * rotations[static_cast<Index>(i)];
-    for (int a = 0; a < 3; ++a) sum[t[a]] += times(kI * opposite(*mesh_, t, a), turn);
+    for (int a = 0; a < 3; ++a) sum[t[a]] += times(kI * opposite_side(*mesh_, t, a), turn);
   }
   return sum;
 }

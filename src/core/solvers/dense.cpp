@@ -24,14 +24,14 @@ void zunmqr_(const char* side, const char* trans, const int* m, const int* n, co
 namespace holomorph {
 namespace {
 
-/// To be held during a call of BLAS. OpenBLAS without threads shares its buffers among all callers
-/// and can then be called by only one thread at a time. With threads it is safe, but its own
-/// threads would compete with ours, so it uses the caller's alone.
+/// To be held during a call of BLAS. OpenBLAS without threads, or with those of OpenMP, shares its
+/// buffers among all callers and can then be called by only one thread at a time. With threads of
+/// its own it is safe, but these would compete with ours, so it uses the caller's alone.
 std::unique_lock<std::mutex> blas_turn() {
   static std::mutex one;
   static const bool is_safe = [] {
     openblas_set_num_threads(1);
-    return openblas_get_parallel() != OPENBLAS_SEQUENTIAL;
+    return openblas_get_parallel() == OPENBLAS_THREAD;
   }();
   return is_safe ? std::unique_lock<std::mutex>() : std::unique_lock(one);
 }

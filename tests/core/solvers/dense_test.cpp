@@ -42,7 +42,8 @@ TEST_CASE("Large products are the sums of their terms") {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     std::uniform_int_distribution<Index> sizes(480, 620);
-    const Index rows = sizes(random), inner = sizes(random), columns = sizes(random);
+    // Enough rows that Gram matrices are shared, too, and in several blocks.
+    const Index rows = sizes(random) + 200, inner = sizes(random), columns = sizes(random);
     const MatrixXd a = random_matrix(rows, inner, random),
                    b = random_matrix(inner, columns, random);
     const MatrixXd expected = a.lazyProduct(b);
@@ -64,10 +65,40 @@ TEST_CASE("Large products are the sums of their terms") {
     CHECK(off.cwiseAbs().maxCoeff() < 1e-10);
     CHECK(gram.leftCols(5).isZero(0));
 
+    const Eigen::MatrixXf single = a.cast<float>(), other_single = b.transpose().cast<float>();
+    Eigen::MatrixXf single_gram = Eigen::MatrixXf::Zero(rows, rows),
+                    single_sum = Eigen::MatrixXf::Zero(rows, columns);
+    add_gram(single, inner, 0, single_gram);
+    add_product(single, other_single, inner, 0, 0, single_sum);
+    const MatrixXd single_off =
+        (single_gram.cast<double>() - square).triangularView<Eigen::Lower>();
+    CHECK(single_off.cwiseAbs().maxCoeff() < 1e-2);
+    CHECK(difference(single_sum.cast<double>(), expected) < 1e-2);
+
     Cholesky cholesky;
     const MatrixXd definite = square + MatrixXd::Identity(rows, rows);
     REQUIRE(cholesky.factor(definite));
     const MatrixXd right = random_matrix(rows, columns, random);
     CHECK(difference(definite * cholesky.solve_all(right), right) < 1e-6);
+  }
+}
+
+TEST_CASE("Triangular factors and solutions reproduce the matrix") {
+  for (const unsigned seed : seeds_of("triangular factors", {1, 2})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<Index> sizes(380, 430);
+    const Index n = sizes(random), rows = n + 50, columns = sizes(random);
+    const MatrixXc a = random_matrix(rows, n, random) + kI * random_matrix(rows, n, random);
+    const MatrixXc r = upper_factor(a);
+    CHECK(r.isUpperTriangular(0));
+    // R^* R = A^* A; the same R, up to signs, as with Q.
+    CHECK((r.adjoint().lazyProduct(r) - a.adjoint().lazyProduct(a)).cwiseAbs().maxCoeff() < 1e-9);
+    const Orthonormal both = orthonormal(a);
+    CHECK((both.r.cwiseAbs() - r.cwiseAbs()).cwiseAbs().maxCoeff() < 1e-10);
+    CHECK((both.q.lazyProduct(both.r) - a).cwiseAbs().maxCoeff() < 1e-10);
+    const MatrixXc right =
+        random_matrix(n, columns, random) + kI * random_matrix(n, columns, random);
+    CHECK((r.lazyProduct(solve_upper(r, right)) - right).cwiseAbs().maxCoeff() < 1e-8);
   }
 }
