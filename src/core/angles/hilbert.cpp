@@ -211,16 +211,16 @@ struct HilbertCoordinates::Samples {
 HilbertCoordinates::Samples HilbertCoordinates::samples() const {
   Samples samples;
   for (size_t i = 0; i < pieces_.size(); ++i) {
-    const auto& [segment, from, to] = pieces_[i];
+    const Piece& piece = pieces_[i];
     const auto add = [&](double t) {
       samples.on_pieces.push_back({static_cast<Index>(i), t});
-      samples.on_cage.push_back({segment, from + t * (to - from)});
+      samples.on_cage.push_back({piece.segment, piece.from + t * (piece.to - piece.from)});
     };
     for (int k = 0; k < kSamplesPerPiece; ++k) add((k + 0.5) / kSamplesPerPiece);
     for (int k = 1; k <= kCornerSamples; ++k) {
       const double near = std::pow(10.0, -k) / 3;
-      if (from == 0 && bends(segment)) add(near);
-      if (to == 1 && bends(cage_.next(segment))) add(1 - near);
+      if (piece.from == 0 && bends(piece.segment)) add(near);
+      if (piece.to == 1 && bends(cage_.next(piece.segment))) add(1 - near);
     }
   }
   return samples;
