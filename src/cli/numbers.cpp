@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "cli/streams.h"
 #include "core/cauchy/cauchy.h"
+#include "core/cauchy/inside.h"
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/export.h"
@@ -39,13 +40,6 @@ class NonFinitePoints {
   size_t count_ = 0, first_ = 0;
 };
 
-/// The number of points to map in one block. It is limited by the memory budget for coordinates.
-size_t block_size(const TimedMap& map) {
-  constexpr double kBudgetFraction = 0.25;  // fraction of the budget for coordinates
-  const double controls = static_cast<double>(map.prepared().rest.cage.control_count());
-  return static_cast<size_t>(std::max(1.0, kBudgetFraction * budget().coordinates / controls));
-}
-
 /// A line for each preimage, or only for the topmost one, that starts with `columns`. Without a
 /// preimage, a line of NaN.
 std::string preimage_lines(std::vector<Preimage> found, const std::string& columns, bool all) {
@@ -71,8 +65,9 @@ void run(const MapCommand& command) {
   TimedMap timed(scene);
   NonFinitePoints non_finite;
   std::vector<char> inside;
-  for (const Complex& z : points) inside.push_back(contains(scene.deformation().rest, z));
-  const size_t block = block_size(timed), blocks = (points.size() + block - 1) / block;
+  const Inside cage(scene.deformation().rest);
+  for (const Complex& z : points) inside.push_back(cage.contains(z));
+  const size_t block = timed.block_size(), blocks = (points.size() + block - 1) / block;
   for (size_t k = 0; k < moments.size(); ++k) {
     const TimedFrame frame = timed.frame(moments[k].time);
     for (size_t b = 0; b < blocks; ++b) {

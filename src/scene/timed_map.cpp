@@ -7,6 +7,7 @@
 #include "core/maps/mesh_point_map.h"
 #include "core/mesh/mesher.h"
 #include "core/parallel.h"
+#include "scene/budget.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -64,6 +65,12 @@ SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
   map.note = frame.between.note;
   map.status = frame.between.status;
   return map;
+}
+
+size_t TimedMap::block_size() const {
+  constexpr double kBudgetFraction = 0.25;
+  const double controls = static_cast<double>(prepared_->rest.cage.control_count());
+  return static_cast<size_t>(std::max(1.0, kBudgetFraction * budget().coordinates / controls));
 }
 
 FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,

@@ -44,6 +44,8 @@ class TimedMap {
   /// and meaningless outside the cage. The next call with the same points reuses their
   /// precomputation.
   SampledMap at(const TimedFrame& frame, const Points& points);
+  /// The number of points that at() should take at once, because of the budget for coordinates.
+  size_t block_size() const;
 
   /// The map in linear pieces that are within `tolerance` of it, in units of the plane. They are in
   /// the order in which they are drawn. Maps between keyframes, and those that the method knows

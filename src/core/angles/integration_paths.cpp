@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/arithmetic.h"
-#include "core/cauchy/cauchy.h"
 #include "core/cauchy/quadrature.h"
 
 namespace holomorph {
@@ -28,6 +27,7 @@ IntegrationPaths::Domain::Domain(const Mesh& its_mesh, const Cage& its_cage, Pre
     : mesh(its_mesh),
       cage(its_cage),
       locator(its_mesh),
+      inside(its_cage),
       corners(vertices_of(its_cage)),
       more_nodes(precision == Precision::full ? kMoreNodes : 0),
       panels(kPanels + (precision == Precision::full ? kMorePanels : 0)),
@@ -128,7 +128,7 @@ void IntegrationPaths::add_graded_panels(Complex a, int vertex, double sign) {
 bool IntegrationPaths::add_inside(std::initializer_list<End> chain) {
   const size_t places = quadrature_points_.size(), tails = tails_.size();
   for (auto end = chain.begin() + 1; end != chain.end(); ++end) add_leg(end[-1], end[0]);
-  const auto is_inside = [&](Complex z) { return contains(domain_->cage, z); };
+  const auto is_inside = [&](Complex z) { return domain_->inside.contains(z); };
   if (std::all_of(quadrature_points_.begin() + static_cast<Index>(places), quadrature_points_.end(),
                   is_inside))
     return true;

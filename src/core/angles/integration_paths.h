@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 
+#include "core/cauchy/inside.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/locator.h"
 
@@ -72,6 +73,7 @@ class IntegrationPaths {
     const Mesh& mesh;
     const Cage& cage;
     MeshLocator locator;
+    Inside inside;
     Points corners;
     int more_nodes, panels;            ///< larger with Precision::full
     std::vector<int> corner_at;        ///< by vertex of the mesh: the cage vertex there, or -1

@@ -37,8 +37,8 @@ MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> poi
 std::vector<Index> independent_controls(const Cage& cage);
 
 /// Whether z lies inside the cage or, to within rounding error, on it. The answer is exact even for
-/// curved cages, because the winding number is the sum of the imaginary parts of the same
-/// logarithms. The cage may have either orientation. Costs as much as a row of order 0.
+/// curved cages, because the roots of c(t) = z give the angle that a curve subtends. The cage may
+/// have either orientation. inside.h tests many points faster.
 bool contains(const Cage& cage, Complex z);
 
 /// A flag for each end of a segment.

@@ -200,23 +200,4 @@ MatrixXc cauchy_coordinates(const Cage& cage, std::span<const BoundaryPoint> poi
   return rows(cage, points, order);
 }
 
-bool contains(const Cage& cage, Complex z) {
-  std::vector<SegmentPolynomial> segments;
-  for (Index e = 0; e < cage.size(); ++e) segments.emplace_back(cage.controls(e));
-  if (contact_of(segments, z)) return true;
-  std::vector<Root> roots;
-  const Loops loops = cage.loops();
-  for (Index l = 0; l < loops.count(); ++l) {
-    double turns = 0;
-    for (Index e = loops.first(l); e < loops.end(l); ++e) {
-      const SegmentPolynomial& segment = segments[static_cast<size_t>(e)];
-      roots.resize(static_cast<size_t>(segment.degree()));
-      segment.roots(z, roots);
-      for (const Root& root : roots) turns += angle_of(root);
-    }
-    if ((std::abs(turns) > kPi) != (l == 0)) return false;
-  }
-  return true;
-}
-
 }  // namespace holomorph

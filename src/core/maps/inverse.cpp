@@ -30,6 +30,7 @@ int oriented(const std::vector<Preimage>& found) {
 InverseMap::InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
                        const PointMap& map)
     : rest_(oriented(rest)),
+      inside_(rest_),
       mesh_(mesh),
       positions_(positions.begin(), positions.end()),
       map_(map),
@@ -137,7 +138,7 @@ Complex InverseMap::pulled_inside(Complex start, int triangle) const {
   const auto [a, b, c] = mesh_.triangles[triangle];
   if ((!outer_[a] && !outer_[b] && !outer_[c]) || is_straight(rest_)) return start;
   const Complex middle = (mesh_.vertices[a] + mesh_.vertices[b] + mesh_.vertices[c]) / 3.0;
-  for (int half = 0; half < 8 && !contains(rest_, start); ++half) start = 0.5 * (start + middle);
+  for (int half = 0; half < 8 && !inside_.contains(start); ++half) start = 0.5 * (start + middle);
   return start;
 }
 
@@ -167,7 +168,7 @@ bool InverseMap::is_inside(Complex z) const {
   // On the boundary the result depends on rounding. A point therefore also counts as inside if a
   // tiny step inward moves it inside.
   const Complex side = outline[outline.loops().next(near.edge)] - outline[near.edge];
-  return contains(rest_, z) || contains(rest_, z + 1e-10 * size_ * kI * side / std::abs(side));
+  return inside_.contains(z) || inside_.contains(z + 1e-10 * size_ * kI * side / std::abs(side));
 }
 
 std::vector<Preimage> InverseMap::at(Complex w) const {
@@ -180,7 +181,7 @@ std::vector<Preimage> InverseMap::at(Complex w) const {
   std::vector<Preimage> inner;
   for (const Preimage& preimage : found) {
     if (nearest_on_polygon(flat_, preimage.z).distance <= kOn * size_) return found;
-    if (contains(rest_, preimage.z)) inner.push_back(preimage);
+    if (inside_.contains(preimage.z)) inner.push_back(preimage);
   }
   if (oriented(inner) == *wanted) return inner;
   std::vector<Preimage> all = search_triangles(w, *wanted);

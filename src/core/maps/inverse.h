@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "core/cauchy/inside.h"
 #include "core/geometry/box_grid.h"
 #include "core/maps/image_winding.h"
 #include "core/mesh/mesh.h"
@@ -71,6 +72,7 @@ class InverseMap {
                      std::vector<Preimage>& found) const;
 
   Cage rest_;
+  Inside inside_;  ///< of the rest
   const Mesh& mesh_;
   Points positions_;
   const PointMap& map_;

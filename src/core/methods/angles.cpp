@@ -5,6 +5,7 @@
 
 #include "core/angles/angle_pins.h"
 #include "core/angles/boundary_angles.h"
+#include "core/cauchy/inside.h"
 #include "core/compared/published_angles.h"
 #include "core/error.h"
 #include "core/geometry/orientation.h"
@@ -65,6 +66,7 @@ class AnglePoints final : public PointMap {
       : mesh_(std::move(mesh)),
         map_(std::move(map)),
         paths_(*mesh_, cage(), Precision::full),
+        inside_(cage()),
         flat_(flattened(cage())),
         placed_(std::move(placed)),
         sum_(map_.sum(placed_.theta)),
@@ -77,7 +79,7 @@ class AnglePoints final : public PointMap {
     // Outside the cage the coordinates are different functions, so the map is continued linearly.
     Points inside;
     for (const Complex& z : points)
-      inside.push_back(contains(cage(), z) ? z : position_of(cage(), nearest_on(cage(), flat_, z)));
+      inside.push_back(inside_.contains(z) ? z : position_of(cage(), nearest_on(cage(), flat_, z)));
     std::vector<Value> values = values_inside(inside);
     for (size_t i = 0; i < points.size(); ++i)
       values[i].f += values[i].fz * (points[i] - inside[i]);
@@ -111,6 +113,7 @@ class AnglePoints final : public PointMap {
   std::shared_ptr<const Mesh> mesh_;
   AngleMap map_;
   IntegrationPaths paths_;
+  Inside inside_;
   FlatCage flat_;
   PlacedAngles placed_;
   HilbertCoordinates::Sum sum_;  ///< log f' / i

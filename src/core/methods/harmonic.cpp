@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/angles/hilbert.h"
-#include "core/cauchy/cauchy.h"
+#include "core/cauchy/inside.h"
 #include "core/geometry/orientation.h"
 #include "core/methods/real_coordinates.h"
 #include "core/methods/rows.h"
@@ -26,9 +26,7 @@ class HarmonicCoordinates final : public RealCoordinates {
  public:
   /// `cage` must be oriented. Outside the cage, the functions are continued linearly.
   explicit HarmonicCoordinates(const Cage& cage)
-      : cage_(cage), flat_(flattened(cage)), hilbert_(cage, control_weights(cage)) {
-    for (Index e = 0; e < cage.size(); ++e) segments_.emplace_back(cage.controls(e));
-  }
+      : cage_(cage), flat_(flattened(cage)), hilbert_(cage, control_weights(cage)), inside_(cage) {}
 
   MatrixXd values(std::span<const Complex> points) const override {
     const Continued continued = continuation(points, 0);
@@ -56,7 +54,7 @@ class HarmonicCoordinates final : public RealCoordinates {
   Continued continuation(std::span<const Complex> points, int order) const {
     Continued at;
     for (const Complex& z : points) {
-      if (is_inside(z)) {
+      if (inside_.contains(z)) {
         at.places.push_back(order == 0 ? z : point_inside_vertex(cage_, z));
         continue;
       }
@@ -75,23 +73,21 @@ class HarmonicCoordinates final : public RealCoordinates {
     return at;
   }
 
-  /// Returns whether z is inside the cage or on its boundary.
-  bool is_inside(Complex z) const {
-    if (contact_of(segments_, z)) return true;
-    return is_straight(cage_) ? encloses(flat_, z) : contains(cage_, z);
-  }
-
   Cage cage_;
   FlatCage flat_;
   HilbertCoordinates hilbert_;
-  std::vector<SegmentPolynomial> segments_;
+  Inside inside_;
 };
 
 std::unique_ptr<Deformer> make_harmonic(const Rest& rest, const Deformer*) {
-  return real_deformer(rest, std::make_shared<const HarmonicCoordinates>(oriented(rest.cage)));
+  return real_deformer(rest, harmonic_coordinates(oriented(rest.cage)));
 }
 
 }  // namespace
+
+std::unique_ptr<RealCoordinates> harmonic_coordinates(const Cage& cage) {
+  return std::make_unique<HarmonicCoordinates>(cage);
+}
 
 Method harmonic_method() {
   return {

@@ -210,10 +210,14 @@ class MeanValueCoordinates final : public RealCoordinates {
 };
 
 std::unique_ptr<Deformer> make_mean_value(const Rest& rest, const Deformer*) {
-  return real_deformer(rest, std::make_shared<const MeanValueCoordinates>(oriented(rest.cage)));
+  return real_deformer(rest, mean_value_coordinates(oriented(rest.cage)));
 }
 
 }  // namespace
+
+std::unique_ptr<RealCoordinates> mean_value_coordinates(const Cage& cage) {
+  return std::make_unique<MeanValueCoordinates>(cage);
+}
 
 Method mean_value_method() {
   return {

@@ -15,6 +15,10 @@ class RealCoordinates {
   virtual MatrixXc slopes(std::span<const Complex> points) const = 0;
 };
 
+/// The coordinates of an oriented cage that are harmonic functions, and mean value coordinates.
+std::unique_ptr<RealCoordinates> harmonic_coordinates(const Cage& cage);
+std::unique_ptr<RealCoordinates> mean_value_coordinates(const Cage& cage);
+
 /// Creates a linear deformer for a rest. `coordinates` must belong to the rest's cage, oriented.
 std::unique_ptr<Deformer> real_deformer(const Rest& rest,
                                         std::shared_ptr<const RealCoordinates> coordinates);

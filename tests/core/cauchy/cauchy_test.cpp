@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/cauchy/cauchy_array.h"
+#include "core/cauchy/inside.h"
 #include "core/error.h"
 #include "core/geometry/nearby_order.h"
 #include "support/seeds.h"
@@ -408,5 +409,39 @@ TEST_CASE("Coordinates of scattered points: sorting them changes nothing but the
     for (size_t i = 0; i < 3000; i += 100)
       CHECK((all.row(static_cast<Index>(i)) - cauchy_coordinates(cage, std::span(&points[i], 1)))
                 .norm() < 1e-13);
+  }
+}
+
+TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary is inside") {
+  for (const unsigned seed : seeds_of("inside of cages", {1, 2})) {
+    std::mt19937 random(seed);
+    for (const int degree : {1, 2, 3, 4}) {
+      Cage cage = shapes::curved_star(7, degree, 0.3, seed + static_cast<unsigned>(degree));
+      cage.holes.push_back(cage.size());
+      const Cage hole = shapes::curved_star(5, degree, 0.3, seed + 90);
+      for (const Points& segment : hole.segments) {
+        Points smaller;
+        for (const Complex& z : segment)
+          smaller.push_back(Complex(200, 200) + 0.2 * (z - Complex(200, 200)));
+        cage.segments.push_back(smaller);
+      }
+      const Inside inside(cage);
+      const Polygon fine = outline_of(cage, 4000);
+      for (int i = 0; i < 3000; ++i) {
+        Complex z = Complex(200, 200) + 130.0 * random_complex(random);
+        if (i % 3 == 0) {  // next to the boundary
+          const Index e = static_cast<Index>(random() % static_cast<unsigned>(cage.size()));
+          const double t = 0.5 + 0.5 * random_complex(random).real();
+          z = position_of(cage, {e, t}) + 0.01 * random_complex(random);
+        }
+        if (nearest_on_polygon(fine, z).distance < 1e-4) continue;
+        CAPTURE(seed, degree, z);
+        REQUIRE(inside.contains(z) == encloses(fine, z));
+        REQUIRE(contains(cage, z) == inside.contains(z));
+      }
+      for (Index e = 0; e < cage.size(); ++e)
+        for (const double t : {0.0, 1e-9, 0.1, 0.5, 0.99})
+          REQUIRE(inside.contains(position_of(cage, {e, t})));
+    }
   }
 }
