@@ -6,12 +6,13 @@ _holomorph() {
     --view) words="image angle area stretch checker" ;;
     --flattening) words="lscm circle" ;;
     --frames) words="all" ;;
-    --time | --scale | --overscan | --order | --detail | --vertices | --margin | --filter | --rect | --max-*) return ;;
+    --engine) words="slurm" ;;
+    --time | --scale | --overscan | --order | --detail | --vertices | --margin | --filter | --rect | --chunk | --rounds | --max-*) return ;;
   esac
   if [ -n "$words" ]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
   elif [ "$COMP_CWORD" -eq 1 ] && [[ $word != -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "map inverse coordinates render info new export formats bench" -- "$word"; compgen -f -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "map inverse coordinates render farm info new export formats bench" -- "$word"; compgen -f -- "$word")
   elif [[ $word == -* ]]; then
     [ "$COMP_CWORD" -gt 1 ] || command=
     # shellcheck disable=SC2086

@@ -41,6 +41,15 @@ struct RenderCommand : SceneCommand {
   std::optional<Box> rectangle = {};
   bool force = false;
   Moments moments = {};
+  bool missing = false;  ///< draw only frames that have no file yet
+};
+/// A film whose frames many machines draw.
+struct FarmCommand : RenderCommand {
+  std::string engine;
+  std::optional<Path> film = {};
+  int chunk = 10;  ///< frames per task
+  int rounds = 3;  ///< how often missing frames are drawn
+  bool only_write = false;
 };
 struct InfoCommand : SceneCommand {
   bool json = false;
@@ -66,6 +75,7 @@ struct ExportCommand : SceneCommand {
   bool crop = false;
   std::optional<int> overscan = {};  ///< of ST-maps, in their pixels
   bool half = false;                 ///< half floats in OpenEXR files
+  std::optional<Path> drawn = {};    ///< numbered pictures to make a film of
   std::optional<Box> rectangle = {};
   bool force = false;
   Moments moments = {};
@@ -85,6 +95,7 @@ void run(const MapCommand& command);
 void run(const InverseCommand& command);
 void run(const CoordinatesCommand& command);
 void run(const RenderCommand& command);
+void run(const FarmCommand& command);
 void run(const InfoCommand& command);
 void run(const NewCommand& command);
 void run(const ExportCommand& command);

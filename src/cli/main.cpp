@@ -29,6 +29,7 @@ struct CommandLine {
   InverseCommand inverse;
   CoordinatesCommand coordinates;
   RenderCommand render;
+  FarmCommand farm;
   InfoCommand info;
   NewCommand new_scene;
   ExportCommand exported;
@@ -47,6 +48,7 @@ struct CommandLine {
   void add_inverse(CLI::App& app);
   void add_coordinates(CLI::App& app);
   void add_render(CLI::App& app);
+  void add_farm(CLI::App& app);
   void add_info(CLI::App& app);
   void add_new(CLI::App& app);
   void add_export(CLI::App& app);
@@ -178,7 +180,30 @@ void CommandLine::add_render(CLI::App& app) {
   add_moments(sub, render.moments,
               "; each becomes a numbered file, such as walk-0007.png for walk.png. All show the "
               "rectangle of the whole motion, or --rect");
+  sub->add_flag("--missing", render.missing, "Draw only frames that have no file yet");
   add_force(sub, render.force);
+}
+
+void CommandLine::add_farm(CLI::App& app) {
+  auto* sub = add(app, "farm", "Draw the frames of a film on many machines", farm);
+  add_scene(sub, farm);
+  sub->add_option("--engine", farm.engine, "What distributes the work: slurm")->required();
+  sub->add_option("--out", farm.out, "Picture to write, such as walk.png for walk-0007.png")
+      ->required();
+  sub->add_option("--film", farm.film, "Film to make of the frames at the end");
+  sub->add_option("--frames", farm.moments.frames, "Frames of the timeline, A..B; by default all");
+  sub->add_option("--scale", farm.scale, "Output pixels per image pixel")->capture_default_str();
+  add_rectangle(sub, farm.rectangle,
+                sub->add_flag("--crop", farm.crop,
+                              "Crop to the picture's rectangle; by default nothing is cut off"));
+  sub->add_option("--chunk", farm.chunk, "Frames that one task draws")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  sub->add_option("--rounds", farm.rounds, "How often frames that are missing are drawn")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  sub->add_flag("--only-write", farm.only_write,
+                "Write the script next to the frames, but do not submit it");
 }
 
 void CommandLine::add_info(CLI::App& app) {
@@ -240,6 +265,8 @@ void CommandLine::add_export(CLI::App& app) {
       "--half", exported.half,
       "Write half floats instead of single ones, for OpenEXR files; precise to half a pixel "
       "in a picture 2000 pixels wide");
+  sub->add_option("--drawn", exported.drawn,
+                  "Make a film of frames that 'render --frames' has written with this --out");
   sub->add_option("--out", exported.out, "File to write")->required();
   add_rectangle(
       sub, exported.rectangle,
@@ -277,6 +304,7 @@ void CommandLine::add_to(CLI::App& app) {
   add_inverse(app);
   add_coordinates(app);
   add_render(app);
+  add_farm(app);
   add_info(app);
   add_new(app);
   add_export(app);

@@ -37,20 +37,23 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
                    PictureOptions options) {
   const Scene& scene = loaded.scene;
   const FrameRange range = frames_named(*command.moments.frames, scene);
+  std::vector<int> wanted;
   for (int i = range.first; i <= range.last; ++i)
+    if (!command.missing || !path_exists(numbered(command.out, i))) wanted.push_back(i);
+  if (wanted.empty()) return;
+  for (const int i : wanted)
     check_out(numbered(command.out, i), command.force, command.scene, loaded);
   const DeferredStop tidy;
   std::string said, shared;
   {
     Progress progress("render", "frame");
-    const size_t count = static_cast<size_t>(range.last - range.first + 1);
     PictureMaker maker(scene, loaded.image(), loaded.pictures);
     if (!command.crop && !options.region)
       options.region = maker.motion_region([] { return !is_interrupted(); });
     OrderedTasks<Path> files([](const Path&) {});
-    for (size_t k = 0; k < count; ++k) {
-      progress.step(k, count);
-      const int i = range.first + static_cast<int>(k);
+    for (size_t k = 0; k < wanted.size(); ++k) {
+      progress.step(k, wanted.size());
+      const int i = wanted[k];
       options.time = i / scene.animation.frames_per_second;
       RasterResult frame = maker.picture(options);
       said = rectangle_text(frame.image.width, frame.image.height, frame.corner);
@@ -62,9 +65,9 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
     }
     files.finish();
   }
-  std::fprintf(stderr, "%d frames of %s: %s to %s%s\n", range.last - range.first + 1, said.c_str(),
-               numbered(command.out, range.first).c_str(),
-               numbered(command.out, range.last).c_str(), shared.c_str());
+  std::fprintf(stderr, "%zu frames of %s: %s to %s%s\n", wanted.size(), said.c_str(),
+               numbered(command.out, wanted.front()).c_str(),
+               numbered(command.out, wanted.back()).c_str(), shared.c_str());
 }
 
 void export_film(const LoadedScene& loaded, const ExportCommand& command) {
@@ -91,13 +94,13 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   std::optional<WrittenFilm> film;
   {
     Progress progress("export", "frame");
-    film = write_film(
-        out, loaded.scene, loaded.image(), options,
-        [&](int done, int all) {
-          progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
-          return true;
-        },
-        loaded.pictures);
+    const auto step = [&](int done, int all) {
+      progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
+      return true;
+    };
+    film = command.drawn
+               ? write_film_of_pictures(out, loaded.scene, *command.drawn, options, step)
+               : write_film(out, loaded.scene, loaded.image(), options, step, loaded.pictures);
   }
   if (is_standard(command.out)) write_standard_output(read_file(out));
   std::fprintf(
@@ -156,6 +159,8 @@ void check_options(const ExportCommand& command) {
     throw_unsupported("--rect", "only png and films have a rectangle");
   if (command.overscan && !format.st_map)
     throw_unsupported("--overscan", "only stmap and unwarp-map extend beyond the picture");
+  if (command.drawn && !format.film)
+    throw_unsupported("--drawn", "only films are made of pictures");
   if (command.half && !format.st_map)
     throw_unsupported("--half", "only stmap and unwarp-map are written as OpenEXR");
   if (command.moments.frames && !format.frames)
@@ -174,6 +179,8 @@ void run(const RenderCommand& command) {
   if (moments.any()) require_keyframes(loaded.scene, command.scene);
   if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
   const bool standard = is_standard(command.out);
+  if (command.missing && !moments.frames)
+    throw Error(ErrorKind::bad_input, "--missing is for frames; use --frames");
   if (standard && moments.frames)
     throw Error(ErrorKind::bad_input,
                 "each frame is a file of its own; give a file name with --out");

@@ -59,11 +59,15 @@ int frames_of_film(const Scene& scene, int first, int last, bool loops) {
   return all - 1;
 }
 
-std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
-                                      const FilmOptions& options,
-                                      const std::function<bool(int done, int all)>& progress,
-                                      const Pictures& others) {
-  const FilmFormat& format = film_format_of(out);
+namespace {
+
+/// The frames of a film: `count` of them from `first` on.
+struct FilmFrames {
+  int first = 0, count = 0;
+};
+
+/// Throws Error if the scene has no such frames.
+FilmFrames frames_of(const Scene& scene, const FilmOptions& options) {
   if (!has_keyframes(scene))
     throw Error(ErrorKind::bad_input, "a film needs keyframes, and the scene has none");
   const int last = options.last < 0 ? last_frame_of(scene) : options.last;
@@ -73,6 +77,42 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
                     std::to_string(options.first) + " to " + std::to_string(last));
   const int frames = frames_of_film(scene, options.first, last, options.loops);
   check_budget(&Budget::frames, frames, "the film has");
+  return {options.first, frames};
+}
+
+/// Writes the frames that `frame_at` gives for the numbers from 0 on.
+std::optional<WrittenFilm> write_frames(const Path& out, const FilmShape& settings, int frames,
+                                        const std::function<RasterResult(int)>& frame_at,
+                                        const std::function<bool(int done, int all)>& progress) {
+  const FilmFormat& format = film_format_of(out);
+  WrittenFilm film{frames, 0, 0, 0};
+  std::unique_ptr<FilmWriter> writer;
+  for (int i = 0; i < frames; ++i) {
+    if (!progress(i, frames)) return {};
+    const RasterResult frame = frame_at(i);
+    if (!writer) {
+      film = {frames, frame.image.width, frame.image.height, frame.corner};
+      writer =
+          format.open(out, {film.width, film.height, settings.frames_per_second, settings.loops});
+    }
+    if (frame.image.width != film.width || frame.image.height != film.height)
+      throw Error(ErrorKind::bad_input, "the frames of a film need the same size");
+    writer->add(frame.image);
+  }
+  if (!progress(frames, frames)) return {};
+  writer->finish();
+  return film;
+}
+
+}  // namespace
+
+std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
+                                      const FilmOptions& options,
+                                      const std::function<bool(int done, int all)>& progress,
+                                      const Pictures& others) {
+  film_format_of(out);  // fails early if the format is unknown
+  const FilmFrames range = frames_of(scene, options);
+  const int frames = range.count;
   const double rate = scene.animation.frames_per_second;
   PictureMaker maker(scene, source, others);
   PictureOptions picture = options.picture;
@@ -80,34 +120,36 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
     picture.region = maker.motion_region([&] { return progress(0, frames); });
     if (!picture.region) return {};
   }
+  const auto frame_at = [&](int i) {
+    picture.time = (range.first + i) / rate;
+    return maker.picture(picture);
+  };
   // All frames are cropped to the area that is filled in some of them.
   if (std::exchange(picture.crops_to_filled, false)) {
     Box filled;
     for (int i = 0; i < frames; ++i) {
       if (!progress(0, frames)) return {};
-      picture.time = (options.first + i) / rate;
-      const Box box = filled_box(maker.picture(picture), picture.scale);
+      const Box box = filled_box(frame_at(i), picture.scale);
       if (box.empty()) continue;
       filled.include({box.left, box.bottom});
       filled.include({box.right, box.top});
     }
     if (!filled.empty()) picture.region = filled;
   }
-  WrittenFilm film{frames, 0, 0, 0};
-  std::unique_ptr<FilmWriter> writer;
-  for (int i = 0; i < frames; ++i) {
-    if (!progress(i, frames)) return {};
-    picture.time = (options.first + i) / rate;
-    const RasterResult frame = maker.picture(picture);
-    if (!writer) {
-      film = {frames, frame.image.width, frame.image.height, frame.corner};
-      writer = format.open(out, {film.width, film.height, rate, options.loops});
-    }
-    writer->add(frame.image);
-  }
-  if (!progress(frames, frames)) return {};
-  writer->finish();
-  return film;
+  return write_frames(out, {0, 0, rate, options.loops}, frames, frame_at, progress);
+}
+
+std::optional<WrittenFilm> write_film_of_pictures(
+    const Path& out, const Scene& scene, const Path& pictures, const FilmOptions& options,
+    const std::function<bool(int done, int all)>& progress) {
+  film_format_of(out);
+  const FilmFrames range = frames_of(scene, options);
+  const auto frame_at = [&](int i) {
+    const Path file = numbered(pictures, range.first + i);
+    return RasterResult{decode_image(read_file(file), file.string()), 0};
+  };
+  return write_frames(out, {0, 0, scene.animation.frames_per_second, options.loops}, range.count,
+                      frame_at, progress);
 }
 
 }  // namespace holomorph

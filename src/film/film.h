@@ -29,11 +29,17 @@ struct WrittenFilm {
 /// the format. Without `region` or `crop`, each frame covers the region of the whole motion, so
 /// separately exported parts of a film fit together. Calls `progress` with the number of finished
 /// frames and the number of all frames. If it returns false, nothing is written and the result is
-/// none. Throws Error if the scene has no keyframes, or if a frame cannot be drawn or written.
-/// Cost: one picture per frame, on all cores.
+/// none. Throws Error if the scene has no keyframes, or if a frame cannot be drawn, read or
+/// written. Cost: one picture per frame, on all cores.
 std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const Image* source,
                                       const FilmOptions& options,
                                       const std::function<bool(int done, int all)>& progress,
                                       const Pictures& others = {});
+
+/// The same film from frames that were drawn before, to pictures of one size that are named by
+/// `numbered`. Only the range of frames and `loops` count among the options.
+std::optional<WrittenFilm> write_film_of_pictures(
+    const Path& out, const Scene& scene, const Path& pictures, const FilmOptions& options,
+    const std::function<bool(int done, int all)>& progress);
 
 }  // namespace holomorph
