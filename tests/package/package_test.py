@@ -68,6 +68,17 @@ class Package(unittest.TestCase):
             editor.press_item("Giraffe")
             editor.wait(lambda s: s["cage_points"] == points, "the sample")
 
+    def test_python_finds_its_module_where_it_is_unpacked(self):
+        root = os.path.join(self.folder, "python")
+        subprocess.run(["dpkg-deb", "-x", self.packages["python3-holomorph"], root], check=True)
+        self.assertRegex(self.field("python3-holomorph", "Depends"), r"python3-numpy.*")
+        self.assertIn("libopenblas0", self.field("python3-holomorph", "Depends"))
+        told = subprocess.run(["/usr/bin/python3", "-c", "import holomorph; print(holomorph.__file__, len(holomorph.methods()))"],
+                              env={**os.environ, "PYTHONPATH": os.path.join(root, "usr/lib/python3/dist-packages")},
+                              check=True, capture_output=True, text=True, cwd=self.folder).stdout
+        self.assertIn(root, told)
+        self.assertTrue(os.path.exists(os.path.join(root, "usr/share/doc/python3-holomorph/copyright")))
+
     def test_it_says_its_license_and_brings_what_its_texts_link(self):
         doc = os.path.join(self.root, "usr/share/doc/holomorph")
         with open(os.path.join(doc, "copyright")) as file:

@@ -1,0 +1,369 @@
+# The Python module, compared with the command line and with formulas.
+import cmath
+import csv
+import io
+import json
+import os
+import random
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+from PIL import Image
+
+PROGRAM, SOURCE, PACKAGE = sys.argv[1:4]
+sys.path.insert(0, PACKAGE)
+import holomorph  # noqa: E402
+
+SAMPLES = sorted(name for name in os.listdir(os.path.join(SOURCE, "assets")) if name.endswith(".json"))
+SEED = int(os.environ.get("HOLOMORPH_SEED", random.randrange(2**32)))
+print(f"python: HOLOMORPH_SEED={SEED}")
+
+
+def sample(name):
+    return os.path.join(SOURCE, "assets", name)
+
+
+def printed(*words):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def rows(text):
+    """The columns of a table as arrays."""
+    table = list(csv.reader(io.StringIO(text.decode())))
+    return dict(zip(table[0], np.array(table[1:], float).T))
+
+
+def same(a, b):
+    """Whether two arrays have the same bits, except that all NaN are alike."""
+    a, b = np.asarray(a), np.asarray(b)
+    return a.shape == b.shape and bool(np.all((a == b) | (np.isnan(a) & np.isnan(b))))
+
+
+def random_star(rng, count=9):
+    angles = 2 * np.pi * (np.arange(count) + 0.3 * rng.random(count)) / count
+    return 200 + 150j + 100 * (0.6 + 0.4 * rng.random(count)) * np.exp(1j * angles)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="holomorph-python-")
+        self.rng = np.random.default_rng(SEED)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def points_file(self, points):
+        with open(self.path("points.csv"), "w") as file:
+            file.writelines(f"{float(z.real)!r},{float(z.imag)!r}\n" for z in points)
+        return self.path("points.csv")
+
+    def scene(self, method="cage"):
+        Image.new("RGBA", (400, 300), (200, 40, 40, 255)).save(self.path("red.png"))
+        scene = holomorph.Scene(self.path("red.png"))
+        scene.set_cage(random_star(self.rng))
+        scene.method = method
+        return scene
+
+
+class AgainstTheCommandLine(Folder):
+    def test_maps_and_derivatives_have_the_same_bits(self):
+        for name in SAMPLES:
+            with self.subTest(scene=name):
+                scene = holomorph.load(sample(name))
+                cage = scene.mesh().vertices
+                points = cage[self.rng.integers(0, len(cage), 40)] + self.rng.normal(size=40) + 1j * self.rng.normal(size=40)
+                for time_of in ([None, 0.4] if scene.keys else [None]):
+                    table = rows(printed("map", sample(name), "--points", self.points_file(points),
+                                         *(["--time", time_of] if time_of is not None else [])))
+                    self.assertTrue(same(scene.map(points, time=time_of), table["u"] + 1j * table["v"]))
+                    fz, fzbar = scene.derivatives(points, time=time_of)
+                    self.assertTrue(same(fz, table["fz_re"] + 1j * table["fz_im"]))
+                    self.assertTrue(same(fzbar, table["fzbar_re"] + 1j * table["fzbar_im"]))
+
+    def test_inverses_have_the_same_bits(self):
+        for name in SAMPLES[:5]:
+            with self.subTest(scene=name):
+                scene = holomorph.load(sample(name))
+                mesh = scene.mesh()
+                points = mesh.positions[self.rng.integers(0, len(mesh.positions), 30)] + 0.3
+                table = rows(printed("inverse", sample(name), "--points", self.points_file(points)))
+                self.assertTrue(same(scene.inverse(points), table["x"] + 1j * table["y"]))
+                counts = [len(found) for found in scene.preimages(points)]
+                self.assertEqual(counts, list(table["count"]))
+
+    def test_pictures_have_the_same_pixels(self):
+        for name in ("fish.json", "octopus.json", "fern.json"):
+            scene = holomorph.load(sample(name))
+            for option, more in ((["--scale", "0.5"], {"scale": 0.5}), (["--crop"], {"crop": True}),
+                                 (["--view", "area"], {"view": "area"})):
+                with self.subTest(scene=name, option=option):
+                    printed("render", sample(name), *option, "--out", self.path("o.png"))
+                    self.assertTrue(np.array_equal(scene.render(**more), np.array(Image.open(self.path("o.png")).convert("RGBA"))))
+        times = holomorph.load(sample("octopus.json"))
+        if times.keys:
+            printed("render", sample("octopus.json"), "--time", "0.3", "--out", self.path("o.png"))
+            self.assertTrue(np.array_equal(times.render(time=0.3), np.array(Image.open(self.path("o.png")).convert("RGBA"))))
+
+    def test_coordinates_have_the_same_bits(self):
+        scene = self.scene()
+        scene.save(self.path("s.json"))
+        points = scene.mesh().vertices[:50]
+        for order in (0, 1, 2):
+            printed("coordinates", self.path("s.json"), "--points", self.points_file(points), "--order", order,
+                    "--out", self.path("c.npy"))
+            given = np.load(self.path("c.npy"))
+            self.assertTrue(same(holomorph.coordinates(scene.cage, points, order=order), given))
+
+    def test_reports_agree(self):
+        told = json.loads(printed("info", sample("gecko.json"), "--json"))
+        scene = holomorph.load(sample("gecko.json"))
+        info = scene.info()
+        for key in told:
+            if key != "timings":
+                self.assertEqual(info[key], told[key], key)
+
+
+class Mathematics(Folder):
+    def test_coordinates_of_every_kind_reproduce_the_plane(self):
+        cage = random_star(self.rng)
+        points = cage.mean() + 20 * (self.rng.normal(size=30) + 1j * self.rng.normal(size=30))
+        points = points[abs(points - cage.mean()) < 40]
+        for kind in ("cauchy", "mean_value", "harmonic"):
+            c = holomorph.coordinates(cage, points, kind)
+            self.assertEqual(c.dtype, complex if kind == "cauchy" else float, kind)
+            np.testing.assert_allclose(c.sum(axis=1), 1, atol=1e-9, err_msg=kind)
+            np.testing.assert_allclose(c @ cage, points, atol=1e-7, err_msg=kind)
+            slopes = holomorph.coordinates(cage, points, kind, order=1)
+            step = 1e-4
+            if kind != "cauchy":  # h_x - i h_y
+                along = (holomorph.coordinates(cage, points + step, kind) - holomorph.coordinates(cage, points - step, kind)) / (2 * step)
+                np.testing.assert_allclose(slopes.real, along, atol=1e-6, err_msg=kind)
+        turned = holomorph.coordinates(cage[::-1], points, "harmonic")
+        np.testing.assert_allclose(turned[:, ::-1], holomorph.coordinates(cage, points, "harmonic"), atol=1e-4)
+        hilbert = holomorph.coordinates(cage, points, "hilbert")
+        self.assertEqual(hilbert.shape, (len(points), 2 * len(cage)))
+        np.testing.assert_allclose(hilbert.sum(axis=1).real, 1, atol=1e-9)
+
+    def test_a_similarity_of_the_cage_is_the_map(self):
+        scene = self.scene()
+        factor, move = 1.3 * cmath.exp(0.7j), 40 - 20j
+        scene.pose = factor * scene.cage + move
+        points = scene.mesh().vertices[::50]
+        np.testing.assert_allclose(scene.map(points), factor * points + move, atol=1e-8)
+        jacobian = np.array([[factor.real, -factor.imag], [factor.imag, factor.real]])
+        inner = points[abs(points - points.mean()) < 40]
+        np.testing.assert_allclose(scene.jacobians(inner), np.broadcast_to(jacobian, (len(inner), 2, 2)), atol=1e-8)
+        np.testing.assert_allclose(scene.inverse(scene.map(inner)), inner, atol=1e-8)
+        self.assertTrue(np.isnan(scene.map([5000 + 0j])[0]))
+
+    def test_pins_reach_their_targets_and_the_proof_is_told(self):
+        scene = self.scene("pins")
+        middle = scene.cage.mean()
+        scene.pins = [holomorph.Pin(middle, middle + 5 + 3j), holomorph.Pin(middle - 30)]
+        self.assertAlmostEqual(abs(scene.map([middle])[0] - middle), abs(5 + 3j), delta=1.5)
+        scene.method = "bounded"
+        proof = scene.certificate()
+        self.assertEqual((proof.proved, proof.status), (True, "certified"))
+        self.assertLess(proof.shear, 1)
+        fz, fzbar = scene.derivatives(scene.mesh().vertices)
+        self.assertGreaterEqual(np.nanmin(abs(fz) - abs(fzbar)), proof.smallest - 1e-9)
+
+    def test_points_may_have_any_shape_and_kind(self):
+        scene = self.scene()
+        middle = scene.cage.mean()
+        grid = middle + np.add.outer(np.arange(3.0), 1j * np.arange(4.0))
+        mapped = scene.map(grid)
+        self.assertEqual(mapped.shape, (3, 4))
+        xy = np.stack([grid.real, grid.imag], axis=-1)
+        self.assertTrue(same(scene.map(xy), mapped))
+        self.assertTrue(same(scene.map(xy.tolist()), mapped))
+        self.assertTrue(same(scene.map(np.asfortranarray(grid)), mapped))
+        self.assertTrue(same(scene.map(grid[::2, ::-1]), mapped[::2, ::-1]))
+        self.assertEqual(scene.jacobians(grid).shape, (3, 4, 2, 2))
+        self.assertEqual(scene.map([]).shape, (0,))
+        for wrong in ([1.0, 2.0, 3.0], "middle", None):
+            with self.assertRaises(TypeError):
+                scene.map(wrong)
+
+
+class Editing(Folder):
+    def test_a_scene_survives_saving(self):
+        scene = self.scene("bounded")
+        scene.parameters = {"k": 0.5}
+        scene.pins = [holomorph.Pin(scene.cage.mean(), angle=0.5, scale=1.2)]
+        scene.set_key(0)
+        scene.pose = scene.cage + 10
+        pins = scene.pins
+        pins[0].target += 10
+        scene.pins = pins
+        scene.set_key(1.5)
+        scene.save(self.path("s.json"))
+        again = holomorph.load(self.path("s.json"))
+        self.assertEqual((again.method, again.parameters, again.keys), ("bounded", {"k": 0.5}, [0, 1.5]))
+        self.assertEqual([(p.position, p.angle, p.scale) for p in again.pins], [(scene.cage.mean(), 0.5, 1.2)])
+        self.assertTrue(same(again.pose, scene.pose))
+        middle = np.array([scene.cage.mean()])
+        moved = again.map(middle, time=0.75) - middle
+        self.assertTrue(0 < moved[0].real < 10, moved)
+        again.remove_key(1.5)
+        self.assertEqual(again.keys, [0])
+        self.assertEqual(os.path.basename(again.picture), "red.png")
+
+    def test_curves_and_holes(self):
+        square = np.array([0, 10 - 5j, 20 - 5j, 30, 35 + 10j, 35 + 20j, 30 + 30j, 20 + 35j, 10 + 35j, 30j, -5 + 20j, -5 + 10j])
+        scene = holomorph.Scene()
+        scene.set_cage(square, degree=3)
+        self.assertEqual(len(scene.cage), 12)
+        np.testing.assert_allclose(scene.map([15 + 15j]), [15 + 15j], atol=1e-9)
+        hole = 15 + 15j + 4 * np.exp(-2j * np.pi * np.arange(6) / 6)
+        scene.set_cage(np.array([0, 30, 30 + 30j, 30j]), holes=[hole])
+        self.assertTrue(np.isnan(scene.map([15 + 15j])[0]))
+        np.testing.assert_allclose(scene.map([5 + 5j]), [5 + 5j], atol=1e-9)
+
+    def test_mistakes_are_explained_and_change_nothing(self):
+        scene = self.scene()
+        before = scene.cage
+        for says, mistake in (("crosses itself", lambda: scene.set_cage([0, 10 + 10j, 10, 10j])),
+                              ("multiple", lambda: scene.set_cage(before, degree=2)),
+                              ("no_such", lambda: setattr(scene, "method", "no_such")),
+                              ("control points", lambda: setattr(scene, "pose", before[1:])),
+                              ("there is no keyframe", lambda: scene.remove_key(4)),
+                              ("layers", lambda: setattr(scene, "layer", 7)),
+                              ("kinds are", lambda: holomorph.coordinates(before, before, "fancy")),
+                              ("pixels", lambda: holomorph.set_limit("fancy", 1)),
+                              ("view", lambda: scene.render(view="fancy")),
+                              ("no cage", lambda: holomorph.Scene().map([0j]))):
+            with self.subTest(says=says), self.assertRaises(holomorph.InvalidInput) as caught:
+                mistake()
+            self.assertIn(says, str(caught.exception))
+            self.assertIsInstance(caught.exception, ValueError)
+        self.assertTrue(same(scene.cage, before))
+        self.assertEqual(scene.method, "cage")
+        with open(self.path("broken.json"), "w") as file:
+            file.write('{"format": "holomorph", "version": 1, "cage": 5}')
+        with self.assertRaisesRegex(holomorph.InvalidInput, "broken.json: /cage"):
+            holomorph.load(self.path("broken.json"))
+        with self.assertRaises(holomorph.Error):
+            holomorph.load(self.path("missing.json"))
+        with self.assertRaisesRegex(holomorph.Error, "red.png"):
+            scene.save(self.path("red.png"))
+
+
+class Resources(Folder):
+    def test_results_own_their_memory(self):
+        scene = self.scene()
+        points = scene.mesh().vertices
+        mapped = scene.map(points)
+        del scene
+        self.assertTrue(mapped.flags.aligned and not mapped.flags.owndata and mapped.base is not None)
+        self.assertTrue(np.isfinite(mapped).all())
+
+    def test_ten_thousand_calls_leak_nothing(self):
+        scene = self.scene("pins")
+        points = scene.mesh().vertices[:200]
+        image = scene.cage.mean() + np.arange(3)
+
+        def calls(count):
+            for i in range(count):
+                scene.map(points)
+                holomorph.coordinates(scene.cage, points[:20])
+                scene.inverse(image)
+                try:
+                    scene.map([1.0])
+                except TypeError:
+                    pass
+                if i % 100 == 0:
+                    scene.pose = scene.pose
+                    scene.render(scale=0.1)
+
+        calls(1000)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        calls(10000)
+        grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+        self.assertLess(grown, 10_000, "kilobytes; a leak of one result of map() would be 32,000")
+
+    def test_other_threads_run_meanwhile(self):
+        scene = self.scene("angles")
+        many = scene.cage.mean() + 20 * self.rng.random(200_000)
+        turns, done = 0, threading.Event()
+
+        def work():
+            scene.map(many)
+            done.set()
+
+        worker = threading.Thread(target=work)
+        worker.start()
+        while not done.is_set():
+            time.sleep(0.001)
+            turns += 1
+        worker.join()
+        self.assertGreater(turns, 3, "Python's lock was held")
+
+    def test_threads_may_share_a_scene(self):
+        scene = self.scene("pins")
+        points = scene.mesh().vertices
+        expected, wrong = scene.map(points), []
+
+        def work():
+            for _ in range(20):
+                if not same(scene.map(points), expected):
+                    wrong.append(1)
+                scene.pins = scene.pins
+
+        workers = [threading.Thread(target=work) for _ in range(4)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join()
+        self.assertEqual(wrong, [])
+
+
+class Packaging(Folder):
+    def test_the_stubs_are_those_that_stubgen_writes(self):
+        subprocess.run(["stubgen", "-p", "holomorph._core", "-o", self.path("stubs"), "-q"], check=True,
+                       env={**os.environ, "PYTHONPATH": PACKAGE}, cwd=self.folder.name, stdout=subprocess.DEVNULL)
+        with open(self.path("stubs/holomorph/_core.pyi")) as made, \
+                open(os.path.join(SOURCE, "src/python/holomorph/_core.pyi")) as kept:
+            self.assertEqual(made.read(), kept.read(), "run stubgen -p holomorph._core again")
+
+    def test_every_name_has_a_docstring(self):
+        for name in holomorph.__all__:
+            thing = getattr(holomorph, name)
+            self.assertTrue(thing.__doc__, name)
+            for member in vars(thing) if isinstance(thing, type) and thing.__module__.startswith("holomorph") else ():
+                if not member.startswith("_") and not issubclass(thing, Exception):
+                    self.assertTrue(getattr(thing, member).__doc__, f"{name}.{member}")
+
+    def test_the_example_runs(self):
+        subprocess.run([sys.executable, os.path.join(SOURCE, "docs/examples/warp.py"), self.folder.name], check=True,
+                       env={**os.environ, "PYTHONPATH": PACKAGE, "MPLBACKEND": "Agg"}, stdout=subprocess.DEVNULL)
+        for name in ("grid.png", "drawing.svg", "photograph.png", "distortion.png"):
+            self.assertGreater(os.path.getsize(self.path(name)), 2000, name)
+
+    def test_pip_installs_it(self):
+        """In an environment that has the system's packages, from a build folder that exists already."""
+        subprocess.run(["/usr/bin/python3", "-m", "venv", "--system-site-packages", self.path("env")], check=True)
+        build = os.path.dirname(PACKAGE)
+        done = subprocess.run([self.path("env/bin/python"), "-m", "pip", "install", "--no-build-isolation", "--no-index", SOURCE],
+                              env={**os.environ, "HOLOMORPH_BUILD": build}, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        told = subprocess.run([self.path("env/bin/python"), "-c", "import holomorph; print(holomorph.__file__, holomorph.methods())"],
+                              capture_output=True, text=True, cwd=self.folder.name)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertIn(self.path("env"), told.stdout)
+        self.assertIn("bounded", told.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
