@@ -48,13 +48,13 @@ SegmentTurn segment_turn(const Points& controls) {
 }
 
 /// How far a closed loop turns at its vertices and along its segments. The sum is 2 pi.
-struct Turns {
+struct LoopTurns {
   std::vector<SegmentTurn> segments;
   std::vector<double> vertices;
 };
 
-Turns turns_of(const Cage& cage, const Turns* fallback) {
-  Turns turns;
+LoopTurns turns_of(const Cage& cage, const LoopTurns* fallback) {
+  LoopTurns turns;
   const size_t n = static_cast<size_t>(cage.size());
   double sum = 0;
   for (size_t e = 0; e < n; ++e) {
@@ -79,7 +79,7 @@ BoundaryAngles boundary_angles(const Cage& rest, const Cage& pose,
                                const std::vector<PoseCorner>& own) {
   check(rest.size() == pose.size() && corners.size() == own.size(),
         "boundary angles: pose and rest match");
-  const Turns at_rest = turns_of(rest, nullptr), posed = turns_of(pose, &at_rest);
+  const LoopTurns at_rest = turns_of(rest, nullptr), posed = turns_of(pose, &at_rest);
   const size_t n = static_cast<size_t>(rest.size()), p = corners.size();
   std::vector<double> starts(n);  // the angle at the start of each segment
   double angle = angle_between(at_rest.segments[0].start, posed.segments[0].start);

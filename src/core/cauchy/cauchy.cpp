@@ -26,17 +26,17 @@ const GaussRule& gauss_rule_of_at_least(int size) {
 }
 
 /// One root of c(t) = z and the logarithm of q / -s, the integral of 1 / (t - s).
-struct View {
+struct SegmentView {
   Complex s, q, log;
 };
 
-View view_of(const Root& root, bool on_edge) {
+SegmentView view_of(const Root& root, bool on_edge) {
   const Complex s = on_edge ? root.s.real() : root.s, q = on_edge ? root.q.real() : root.q;
   return {s, q, {0.5 * std::log(std::norm(q) / std::norm(s)), on_edge ? kPi : angle_of(root)}};
 }
 
 /// The moments of all orders up to `order`, by degree raising: row n holds M_n.
-MatrixXc moments_near(const View& view, int degree, int order) {
+MatrixXc moments_near(const SegmentView& view, int degree, int order) {
   MatrixXc moments = MatrixXc::Zero(order + 1, degree + 1);
   moments(0, 0) = view.log;
   Complex start_power = 1, end_power = 1;
@@ -82,7 +82,7 @@ void bernstein(int degree, double t, std::vector<double>& values) {
       values[m] = (m < d ? (1 - t) * values[m] : 0.0) + (m > 0 ? t * values[m - 1] : 0.0);
 }
 
-MatrixXc moments_far(const View& view, int degree, int order, int nodes) {
+MatrixXc moments_far(const SegmentView& view, int degree, int order, int nodes) {
   const GaussRule& rule = gauss_rule_of_at_least(nodes);
   MatrixXc moments = MatrixXc::Zero(order + 1, degree + 1);
   std::vector<double> basis;
@@ -104,7 +104,7 @@ double near_limit(int degree) {
 
 /// Row n: M_n[m] = integral of B_m / (t - s)^(n + 1), which is also the n-th Taylor coefficient of
 /// M_0 as a function of s.
-MatrixXc moments_at(const View& view, int degree, int order) {
+MatrixXc moments_at(const SegmentView& view, int degree, int order) {
   const double ellipse = std::abs(view.s) + std::abs(view.q);
   return ellipse <= near_limit(degree)
              ? moments_near(view, degree, order)
@@ -205,7 +205,7 @@ Complex cauchy_factor(int order) {
 ///
 /// Integration by parts turns the integral of B / (t - s)^2 into the pole plus the integral of
 /// B' / (t - s).
-void drop_poles(const View& view, Ends ends, MatrixXc& moments) {
+void drop_poles(const SegmentView& view, Ends ends, MatrixXc& moments) {
   const int order = static_cast<int>(moments.rows()) - 1,
             degree = static_cast<int>(moments.cols()) - 1;
   if (order == 0 || !(ends.start || ends.end)) return;
@@ -251,7 +251,7 @@ VectorXc segment_coordinates(const SegmentPolynomial& segment, int degree, const
   }
   sum.setZero();
   for (auto root = roots.begin(); root != roots.end(); ++root) {
-    const View view = view_of(*root, root == on);
+    const SegmentView view = view_of(*root, root == on);
     MatrixXc moments = moments_at(view, degree, order);
     drop_poles(view, without_poles, moments);
     add_branch(segment, *root, moments, sum);

@@ -8,7 +8,7 @@
 namespace holomorph {
 namespace {
 
-using Edge = std::pair<int, int>;
+using VertexPair = std::pair<int, int>;
 
 /// The vertex that represents the component of i.
 int root(std::vector<int>& parent, int i) {
@@ -37,7 +37,7 @@ std::vector<std::vector<int>> boundary_loops(int count,
                                              const std::string& what) {
   const auto refuse = [&what](const std::string& why) { holomorph::refuse(what, why); };
   if (triangles.empty()) refuse("it has no triangles");
-  std::map<Edge, int> directed;
+  std::map<VertexPair, int> directed;
   std::vector<int> parent(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) parent[static_cast<size_t>(i)] = i;
   for (const auto& t : triangles)
