@@ -121,7 +121,7 @@ class Package(unittest.TestCase):
         subprocess.run(["appstreamcli", "validate", "--no-net", entry], check=True, capture_output=True)
 
     def test_the_libraries_are_packages_of_their_own_with_their_own_licenses(self):
-        self.assertEqual(set(self.packages), {"holomorph", "libholomorph-dev", "libholomorph-mesher-dev"})
+        self.assertEqual(set(self.packages), {"holomorph", "libholomorph-dev", "libholomorph-mesher-dev", "python3-holomorph"})
         for package, license, library in (("libholomorph-dev", "Expat", "libholomorph_core.a"),
                                           ("libholomorph-mesher-dev", "GPL-3", "libholomorph_mesher.a")):
             listed = subprocess.run(["dpkg-deb", "-c", self.packages[package]], check=True, capture_output=True, text=True).stdout
