@@ -27,7 +27,8 @@ def arc(z, angle=2.0):
 scene = holomorph.Scene()
 scene.set_cage(cage)
 scene.pose = arc(cage) + width / 2
-print(scene.info()["map"] if "map" in scene.info() else scene.info())
+info = scene.info()
+print("stretches from", info["min_sigma"], "to", info["max_sigma"], "and", info["flipped_triangles"], "flipped triangles")
 
 # %% A grid: rows and columns of points, mapped at once.
 x, y = np.meshgrid(np.linspace(2, width - 2, 61), np.linspace(2, height - 2, 16))
@@ -56,7 +57,7 @@ def mapped_path(path):
 
 
 with open(os.path.join(folder, "drawing.svg"), "w") as file:
-    file.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 -300 800 800">'
+    file.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-20 0 640 300">'
                f'<path transform="matrix(1 0 0 -1 0 200)" d="{mapped_path(path)}" fill="none" stroke="black"/></svg>\n')
 
 # %% A picture: a scene draws it, and the method `bounded` proves that nothing folds.
@@ -67,6 +68,7 @@ plt.imsave(os.path.join(folder, "stripes.png"), image)
 photograph = holomorph.Scene(os.path.join(folder, "stripes.png"))
 photograph.set_cage(cage)
 photograph.method = "bounded"
+photograph.background = "transparent"  # or else, the picture as it was shows through
 photograph.pose = arc(cage) + width / 2
 certificate = photograph.certificate()
 print("proved" if certificate.proved else "not proved", certificate.shear, certificate.smallest, certificate.largest)
@@ -79,5 +81,5 @@ stretch = axes.pcolormesh(bent.real, bent.imag, np.log2(abs(fz) + abs(fzbar)), c
                           shading="gouraud")
 figure.colorbar(stretch, label="log2 of the largest stretch")
 axes.set_aspect("equal")
-axes.set_title(f"conformal up to {np.nanmax(abs(fzbar)):.1g}")
+axes.set_title(f"How much the map stretches; it is conformal: |f_zbar| <= {np.nanmax(abs(fzbar)):.1g}")
 figure.savefig(os.path.join(folder, "distortion.png"), dpi=120)

@@ -484,6 +484,37 @@ void add_content(py::class_<PythonScene>& scene) {
           },
           "The names of all layers, from the bottom to the top.")
       .def_property(
+          "background",
+          [](const PythonScene& self) -> std::string {
+            const Background background = self.scene().background;
+            if (background.fill == Background::Fill::transparent) return "transparent";
+            if (background.fill == Background::Fill::original) return "original";
+            char color[8];
+            std::snprintf(color, sizeof color, "#%02x%02x%02x", background.color[0],
+                          background.color[1], background.color[2]);
+            return color;
+          },
+          [](PythonScene& self, const std::string& name) {
+            Background background;
+            unsigned color = 0;
+            int end = 0;
+            if (name == "original")
+              background.fill = Background::Fill::original;
+            else if (name.size() == 7 && std::sscanf(name.c_str(), "#%6x%n", &color, &end) == 1 &&
+                     end == 7)
+              background = {
+                  Background::Fill::color,
+                  {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8),
+                   static_cast<std::uint8_t>(color)}};
+            else if (name != "transparent")
+              throw Error(ErrorKind::bad_input, "'" + name +
+                                                    "' is not a background; use transparent, "
+                                                    "original or #rrggbb");
+            self.edit_scene([&](Scene& scene) { scene.background = background; });
+          },
+          "What is behind the layers. It is transparent, original or a color #rrggbb. The original "
+          "pictures fill gaps; they are the default for pictures without transparency.")
+      .def_property(
           "method", [](const PythonScene& self) { return self.deformation().method; },
           [](PythonScene& self, const std::string& id) {
             self.edit([&](Deformation& deformation) {

@@ -220,6 +220,19 @@ class Editing(Folder):
         self.assertEqual(again.keys, [0])
         self.assertEqual(os.path.basename(again.picture), "red.png")
 
+    def test_the_background_fills_gaps(self):
+        scene = self.scene()
+        scene.pose = scene.cage + 400
+        middle = 150, 200  # row and column
+        self.assertEqual(scene.background, "original")  # the picture has no transparency
+        for background, color in (("original", [200, 40, 40, 255]), ("transparent", [0, 0, 0, 0]), ("#0a141e", [10, 20, 30, 255])):
+            scene.background = background
+            self.assertEqual(scene.background, background)
+            self.assertEqual(list(scene.render(region=(0, 0, 400, 300))[middle]), color)
+        for wrong in ("blue", "#12345", "#gggggg", "#1234567"):
+            with self.assertRaises(holomorph.InvalidInput):
+                scene.background = wrong
+
     def test_curves_and_holes(self):
         square = np.array([0, 10 - 5j, 20 - 5j, 30, 35 + 10j, 35 + 20j, 30 + 30j, 20 + 35j, 10 + 35j, 30j, -5 + 20j, -5 + 10j])
         scene = holomorph.Scene()

@@ -42,6 +42,7 @@ class Pin:
     def __init__(self, position: complex, target: Optional[complex] = ..., angle: Optional[float] = ..., scale: float = ...) -> None: ...
 
 class Scene:
+    background: str
     layer: int
     method: str
     parameters: Dict[str,float]
