@@ -81,5 +81,5 @@ stretch = axes.pcolormesh(bent.real, bent.imag, np.log2(abs(fz) + abs(fzbar)), c
                           shading="gouraud")
 figure.colorbar(stretch, label="log2 of the largest stretch")
 axes.set_aspect("equal")
-axes.set_title(f"How much the map stretches; it is conformal: |f_zbar| <= {np.nanmax(abs(fzbar)):.1g}")
+axes.set_title(f"abs(f_zbar) is at most {np.nanmax(abs(fzbar)):.1g}")
 figure.savefig(os.path.join(folder, "distortion.png"), dpi=120)
