@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <mutex>
 
 #include "core/angles/hilbert.h"
@@ -177,16 +178,18 @@ class PythonScene {
     TimedMap& map = timed();
     const TimedFrame frame = map.frame(time);
     Values values{points, Eigen::Matrix2Xcd(2, points.size())};
+    const Inside cage(scene_.deformation().rest);
     const size_t block = map.block_size();
     for (size_t first = 0; first < points.size(); first += block) {
       handle_interrupts();
       const size_t count = std::min(block, points.size() - first);
-      if (count == points.size())
-        write(map.at(frame, points), first, values);
-      else
-        write(map.at(frame, {values.f.begin() + static_cast<std::ptrdiff_t>(first),
-                             values.f.begin() + static_cast<std::ptrdiff_t>(first + count)}),
-              first, values);
+      Points some(points.begin() + static_cast<std::ptrdiff_t>(first),
+                  points.begin() + static_cast<std::ptrdiff_t>(first + count));
+      // Maps refuse numbers that are not finite, but arrays may contain them.
+      const Complex any = scene_.deformation().rest.vertex(0);
+      std::ranges::replace_if(
+          some, [](Complex z) { return !is_moderate(z); }, any);
+      write(map.at(frame, some), cage, first, values);
     }
     return values;
   }
@@ -226,15 +229,14 @@ class PythonScene {
  private:
   /// Writes a map from index `first` on, where `values.f` still holds the points; NaN outside of
   /// the cage.
-  void write(const SampledMap& map, size_t first, Values& values) const {
-    const Inside cage(scene_.deformation().rest);
+  static void write(const SampledMap& map, const Inside& cage, size_t first, Values& values) {
     const size_t count = static_cast<size_t>(map.f.size());
     constexpr size_t kBlock = 1024;
     parallel_for(static_cast<int>((count + kBlock - 1) / kBlock), [&](int block) {
       const size_t from = static_cast<size_t>(block) * kBlock;
       for (size_t i = from; i < std::min(from + kBlock, count); ++i) {
         const Index k = static_cast<Index>(i);
-        const bool inside = cage.contains(values.f[first + i]);
+        const bool inside = is_moderate(values.f[first + i]) && cage.contains(values.f[first + i]);
         const Complex none(NAN, NAN);
         values.f[first + i] = inside ? map.f[k] : none;
         values.derivatives(0, static_cast<Index>(first + i)) = inside ? map.fz[k] : none;
@@ -264,6 +266,8 @@ py::array coordinates(const PointArray& cage_points, const PointArray& points,
                       const std::vector<PointArray>& holes) {
   const Cage cage = cage_of(cage_points, holes, degree);
   if (kind == "cauchy") {
+    if (order < 0 || order > 12)
+      throw Error(ErrorKind::bad_input, "Cauchy coordinates have order 0 to 12");
     MatrixXc values;
     {
       const py::gil_scoped_release unlocked;
@@ -309,6 +313,8 @@ py::array coordinates(const PointArray& cage_points, const PointArray& points,
 }
 
 void set_limit(const std::string& name, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw Error(ErrorKind::bad_input, "a limit is a number above 0");
   Budget limits = budget();
   std::string names;
   for (const BudgetOption& option : budget_options()) {
@@ -320,10 +326,6 @@ void set_limit(const std::string& name, double value) {
     names += (names.empty() ? "" : ", ") + known;
   }
   throw Error(ErrorKind::bad_input, "there is no limit '" + name + "'; the limits are " + names);
-}
-
-View view_by_name(const std::string& name) {
-  return view_named(name);
 }
 
 }  // namespace
@@ -699,12 +701,15 @@ void add_map(py::class_<PythonScene>& scene) {
              const std::optional<std::tuple<double, double, double, double>>& region,
              const std::string& view) {
             PictureOptions options;
-            options.view = view_by_name(view);
+            options.view = view_named(view);
             options.scale = scale;
             options.crop = crop;
             options.time = time;
             if (region) {
               const auto& [left, bottom, right, top] = *region;
+              if (!(left < right) || !(bottom < top))
+                throw Error(ErrorKind::bad_input,
+                            "the region is empty; give left, bottom, right and top");
               options.region = Box{left, bottom, right, top};
             }
             Image image = self.picture(options).image;
@@ -741,7 +746,7 @@ PYBIND11_MODULE(_core, module) {
              py::arg("holes") = py::list(),
              "Coordinates of points in a cage: points x control points. The kinds are cauchy "
              "(complex), mean_value and harmonic (real), and hilbert (complex, two per vertex). "
-             "Order 1 gives complex derivatives; cauchy has any order.");
+             "Order 1 gives complex derivatives; cauchy has orders up to 12.");
   module.def("load", &PythonScene::load, py::arg("path"), py::arg("allow_outside") = false,
              "Reads a scene file and its pictures. Pictures outside of the scene's folder are read "
              "only if that is allowed.");

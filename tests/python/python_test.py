@@ -192,6 +192,9 @@ class Mathematics(Folder):
         self.assertTrue(same(scene.map(grid[::2, ::-1]), mapped[::2, ::-1]))
         self.assertEqual(scene.jacobians(grid).shape, (3, 4, 2, 2))
         self.assertEqual(scene.map([]).shape, (0,))
+        odd = np.array([np.nan, middle, np.inf, complex(0, -np.inf), 1e300])
+        for result in (scene.map(odd), scene.inverse(odd)):
+            self.assertEqual(list(np.isfinite(result)), [False, True, False, False, False])
         for wrong in ([1.0, 2.0, 3.0], "middle", None):
             with self.assertRaises(TypeError):
                 scene.map(wrong)
@@ -256,6 +259,9 @@ class Editing(Folder):
                               ("kinds are", lambda: holomorph.coordinates(before, before, "fancy")),
                               ("pixels", lambda: holomorph.set_limit("fancy", 1)),
                               ("view", lambda: scene.render(view="fancy")),
+                              ("above 0", lambda: holomorph.set_limit("max-pixels", -1)),
+                              ("region is empty", lambda: scene.render(region=(5, 5, 1, 1))),
+                              ("order 0 to 12", lambda: holomorph.coordinates(before, before, order=1000)),
                               ("no cage", lambda: holomorph.Scene().map([0j]))):
             with self.subTest(says=says), self.assertRaises(holomorph.InvalidInput) as caught:
                 mistake()
