@@ -108,10 +108,9 @@ void run(const InverseCommand& command) {
                   "method '" + scene.deformation().method + "' has no inverse");
     constexpr size_t kBlock = 8192;  // limits the memory
     for (size_t from = 0; from < points.size(); from += kBlock) {
-      const size_t count = std::min(kBlock, points.size() - from);
+      const size_t all = points.size(), count = std::min(kBlock, all - from);
       const auto step = [&](size_t searched) {
-        progress.step(k * points.size() + from + std::min(searched, count),
-                      moments.size() * points.size());
+        progress.step(k * all + from + std::min(searched, count), moments.size() * all);
       };
       step(0);
       const auto found = inverse->at(std::span(points).subspan(from, count), step);
