@@ -4,6 +4,7 @@ uniform sampler2D under_layers;
 uniform sampler2D over_layer;
 uniform int blending;   // -1: copy `under_layers`; else the number of the mode
 uniform float opacity;
+uniform bool clipped;   // the layer changes colors only, and not where they are
 
 out vec4 color;
 
@@ -28,5 +29,9 @@ void main() {
     mixed = mix(light, dark, vec3(lessThan(cb, vec3(0.5))));
   }
   if (blending == 4) mixed = min(cs + cb, 1.0);
+  if (clipped) {
+    color = vec4(b * mix(cb, (1.0 - b) * cs + b * mixed, a), b);
+    return;
+  }
   color = vec4(a * (1.0 - b) * cs + b * (1.0 - a) * cb + a * b * mixed, a + b - a * b);
 }

@@ -8,6 +8,7 @@
 #include "film/film_writer.h"
 #include "scene/formats/file_kinds.h"
 #include "scene/formats/image.h"
+#include "scene/formats/layered.h"
 
 namespace holomorph {
 namespace {
@@ -118,6 +119,13 @@ const std::vector<ExportFormat>& export_formats() {
          .extensions = {".obj"},
          .writes = "the surface with the picture as its texture",
          .scale = true}};
+    for (const LayeredFormat& layered : layered_formats())
+      formats.push_back({.id = layered.extension.substr(1),
+                         .extensions = {layered.extension},
+                         .writes = "the posed layers",
+                         .scale = true,
+                         .crop = true,
+                         .time = true});
     for (const FilmFormat& film : film_formats())
       if (film.extension != ".png")
         formats.push_back({.id = film.extension.substr(1),

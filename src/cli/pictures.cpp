@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "film/film.h"
 #include "film/ordered_tasks.h"
+#include "raster/layered_picture.h"
 #include "raster/textured.h"
 #include "raster/unwarp.h"
 #include "scene/formats/export.h"
@@ -145,6 +146,25 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 
+void export_layers(const LoadedScene& loaded, const ExportCommand& command,
+                   const LayeredFormat& format) {
+  PictureOptions options;
+  options.scale = command.scale.value_or(1);
+  options.crop = command.crop;
+  options.region = command.rectangle;
+  options.time = command.moments.time;
+  LayeredPicture picture;
+  std::string bytes;
+  {
+    const Progress progress("export");
+    picture = layered_picture_of(loaded.scene, loaded.image(), options, loaded.pictures);
+    bytes = format.encode(picture);
+  }
+  write_result(command.out, bytes);
+  std::fprintf(stderr, "%s: %zu layers of %d x %d pixels\n", shown_output(command.out).c_str(),
+               picture.layers.size(), picture.merged.width, picture.merged.height);
+}
+
 /// Throws Error for options that the format does not support.
 void check_options(const ExportCommand& command) {
   const ExportFormat& format = export_format_named(command.format);
@@ -154,9 +174,9 @@ void check_options(const ExportCommand& command) {
   };
   if (command.scale && !format.scale) throw_unsupported("--scale", "it has no pixels");
   if (command.crop && !format.crop)
-    throw_unsupported("--crop", "only png and films can be cropped");
+    throw_unsupported("--crop", "only pictures and films can be cropped");
   if (command.rectangle && !format.crop)
-    throw_unsupported("--rect", "only png and films have a rectangle");
+    throw_unsupported("--rect", "only pictures and films have a rectangle");
   if (command.overscan && !format.st_map)
     throw_unsupported("--overscan", "only stmap and unwarp-map extend beyond the picture");
   if (command.drawn && !format.film)
@@ -223,6 +243,8 @@ void run(const ExportCommand& command) {
   if (known.st_map) return export_st_maps(loaded, command);
   check_out(command.out, command.force, command.scene, loaded);
   if (format == "textured") return export_textured(loaded, command);
+  if (const LayeredFormat* layered = layered_format_of("a." + format))
+    return export_layers(loaded, command, *layered);
   if (known.film) return export_film(loaded, command);
   const std::string bytes = exported(loaded, command);
   write_result(command.out, bytes);

@@ -38,21 +38,22 @@ unsigned blended(Blending mode, unsigned over, unsigned under) {
 void blend(const std::uint8_t* over, std::uint8_t* under, const LayerInk& ink = {}) {
   const unsigned a = divided_by_255(over[3] * ink.opacity), b = under[3];
   const bool is_normal = ink.blending == Blending::normal;
-  if (a == 0) return;
+  if (a == 0 || (b == 0 && ink.clipped)) return;
   if ((a == 255 && is_normal) || b == 0) {
     std::memcpy(under, over, 3);
-    under[3] = static_cast<std::uint8_t>(a);
+    if (!ink.clipped) under[3] = static_cast<std::uint8_t>(a);
     return;
   }
-  // Weights of the colors above, below and blended, in units of 1 / 255^2.
-  const unsigned both = a * b, above = a * (255 - b), below = b * (255 - a),
+  // Weights of the colors above, below and blended, in units of 1 / 255^2. With clipping, the alpha
+  // below is that of the result (source-atop).
+  const unsigned both = a * b, above = a * (255 - b), below = (ink.clipped ? 255 : b) * (255 - a),
                  all = above + below + both;
   for (int k = 0; k < 3; ++k) {
     const unsigned mixed = blended(ink.blending, over[k], under[k]);
     under[k] = static_cast<std::uint8_t>(
         (above * over[k] + below * under[k] + both * mixed + all / 2) / all);
   }
-  under[3] = static_cast<std::uint8_t>((all + 127) / 255);
+  if (!ink.clipped) under[3] = static_cast<std::uint8_t>((all + 127) / 255);
 }
 
 /// The rows and columns of the pixels with some alpha: from the first to behind the last.
@@ -78,7 +79,7 @@ struct PixelOffset {
 
 LayerInk ink_of(const Layer& layer) {
   return {static_cast<unsigned>(std::lround(255 * std::clamp(layer.opacity, 0.0, 1.0))),
-          layer.blending};
+          layer.blending, layer.clipped};
 }
 
 void fade(Image& image, const LayerInk& ink) {
@@ -93,9 +94,13 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
   const auto shift = [&](double by) { return static_cast<int>(std::lround(by * pixels_per_unit)); };
   const int right = shift(over.corner.real() - under.corner.real()),
             up = shift(over.corner.imag() - under.corner.imag());
-  const int left_edge = std::min(0, right), bottom_edge = std::min(0, up);
-  const int width = std::max(under.image.width, right + over.image.width) - left_edge,
-            height = std::max(under.image.height, up + over.image.height) - bottom_edge;
+  int left_edge = 0, bottom_edge = 0, width = under.image.width, height = under.image.height;
+  if (!ink.clipped) {
+    left_edge = std::min(0, right);
+    bottom_edge = std::min(0, up);
+    width = std::max(width, right + over.image.width) - left_edge;
+    height = std::max(height, up + over.image.height) - bottom_edge;
+  }
   constexpr int kLargest = 16384;
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input,
@@ -114,8 +119,10 @@ RasterResult composed(RasterResult under, const RasterResult& over, double pixel
     result.corner += Complex(left_edge, bottom_edge) / pixels_per_unit;
   }
   const PixelOffset at = offset_of(over.image, right, up);
-  for (int r = 0; r < over.image.height; ++r)
-    for (int c = 0; c < over.image.width; ++c)
+  const int rows = std::min(over.image.height, height - at.row),
+            columns = std::min(over.image.width, width - at.column);
+  for (int r = std::max(0, -at.row); r < rows; ++r)
+    for (int c = std::max(0, -at.column); c < columns; ++c)
       blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r), ink);
   return result;
 }

@@ -10,14 +10,15 @@ namespace holomorph {
 struct LayerInk {
   unsigned opacity = 255;
   Blending blending = Blending::normal;
+  bool clipped = false;  ///< changes the colors below, but not their alpha
 };
 LayerInk ink_of(const Layer& layer);
 
 /// Composites `over` onto `under`, in the smallest picture that contains both, in 8-bit straight
 /// alpha. Both must have the same resolution, and their corners must be a whole number of pixels
 /// apart. Opaque pixels of `over`, and pixels covered by only one of the pictures, are copied bit
-/// for bit with the usual ink. Throws Error{bad_input} if the result would have more than 16384
-/// pixels on a side.
+/// for bit with the usual ink. With clipped ink, the result is as large as `under`. Throws
+/// Error{bad_input} if the result would have more than 16384 pixels on a side.
 RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit,
                       const LayerInk& ink = {});
 /// Multiplies the alpha of all pixels by the opacity.

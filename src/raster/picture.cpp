@@ -202,26 +202,46 @@ Box PictureMaker::rectangle() const {
   return box;
 }
 
-RasterResult PictureMaker::picture(const PictureOptions& asked) {
-  PictureOptions options = asked;
-  if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_)) throw no_key_plays();
-  LayerMaker& edited = *layers_[scene_.edited];
+PictureMaker::Frame PictureMaker::frame_of(const PictureOptions& options) const {
+  Frame frame{options};
   if (options.view != View::image || !has_layers(scene_)) {
-    const double top = edited.source() ? edited.source()->height : 0;
-    RasterResult result = edited.picture(options, top, placement(scene_.edited, options.time));
-    if (options.view != View::image) return result;
-    if (scene_.background.fill == Background::Fill::original)
-      result = composed(edited.original(options, top), result, options.scale);
-    if (options.crops_to_filled) result = cropped_to_filled(std::move(result), options.scale);
-    if (scene_.background.fill == Background::Fill::color)
-      composite_onto_color(result.image, scene_.background.color);
-    return result;
+    const Image* source = layers_[scene_.edited]->source();
+    frame.top = source ? source->height : 0;
+    return frame;
   }
   const Box rectangle = this->rectangle();
-  if (options.crop && !options.region && !rectangle.empty()) options.region = rectangle;
-  const double top = rectangle.empty() ? 0 : rectangle.top;
+  if (options.crop && !options.region && !rectangle.empty()) frame.options.region = rectangle;
+  frame.top = rectangle.empty() ? 0 : rectangle.top;
+  return frame;
+}
+
+std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOptions& options) {
+  if (!layers_[number]->source()) return {};
+  const Frame frame = frame_of(options);
+  return layers_[number]->picture(frame.options, frame.top, placement(number, options.time));
+}
+
+std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) const {
+  const Frame frame = frame_of(options);
+  std::optional<RasterResult> all;
+  for (const auto& layer : layers_) {
+    if (!layer->source() || (has_layers(scene_) && !layer->visible())) continue;
+    RasterResult original = layer->original(frame.options, frame.top);
+    all = all ? composed(std::move(*all), original, options.scale) : std::move(original);
+  }
+  return all;
+}
+
+RasterResult PictureMaker::picture(const PictureOptions& options) {
+  if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_)) throw no_key_plays();
+  const Frame frame = frame_of(options);
+  const auto drawn = [&](size_t layer) {
+    return layers_[layer]->picture(frame.options, frame.top, placement(layer, options.time));
+  };
+  if (options.view != View::image) return drawn(scene_.edited);
   std::optional<RasterResult> result;
-  const auto add = [&](RasterResult over, const LayerInk& ink = {}) {
+  if (scene_.background.fill == Background::Fill::original) result = originals(options);
+  const auto add = [&](RasterResult over, const LayerInk& ink) {
     if (result) {
       result = composed(std::move(*result), over, options.scale, ink);
     } else {
@@ -229,12 +249,15 @@ RasterResult PictureMaker::picture(const PictureOptions& asked) {
       result = std::move(over);
     }
   };
-  if (scene_.background.fill == Background::Fill::original)
-    for (const auto& layer : layers_)
-      if (layer->visible() && layer->source()) add(layer->original(options, top));
   for (size_t i = 0; i < layers_.size(); ++i) {
-    LayerMaker& layer = *layers_[i];
-    if (layer.visible()) add(layer.picture(options, top, placement(i, options.time)), layer.ink());
+    if (clip_base(scene_, i) || (has_layers(scene_) && !layers_[i]->visible())) continue;
+    RasterResult base = drawn(i);
+    for (size_t k = i + 1; k < layers_.size() && clip_base(scene_, k) == i; ++k)
+      if (layers_[k]->visible())
+        base = composed(std::move(base), drawn(k), options.scale, layers_[k]->ink());
+    LayerInk ink = layers_[i]->ink();
+    ink.clipped = false;  // the lowest layer has nothing to be clipped to
+    add(std::move(base), ink);
   }
   if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
   if (options.crops_to_filled) *result = cropped_to_filled(std::move(*result), options.scale);

@@ -35,6 +35,11 @@ class PictureMaker {
   ~PictureMaker();
 
   RasterResult picture(const PictureOptions& options);
+  /// One layer alone, as it is before its opacity and blending are applied, even if it is hidden.
+  /// None if it has no picture.
+  std::optional<RasterResult> layer(size_t number, const PictureOptions& options);
+  /// The undeformed pictures of the visible layers; none if there are none.
+  std::optional<RasterResult> originals(const PictureOptions& options) const;
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
   /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
   /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between
@@ -46,6 +51,11 @@ class PictureMaker {
  private:
   class LayerMaker;
 
+  struct Frame {
+    PictureOptions options;  ///< with the region to which they crop
+    double top = 0;          ///< the upper edge of the pictures, at which rows of pixels start
+  };
+  Frame frame_of(const PictureOptions& options) const;
   /// Where the plane of a layer lies in the scene's plane.
   Similarity placement(size_t layer, const std::optional<double>& time);
   std::vector<MotionPart> motion_parts(size_t layer);

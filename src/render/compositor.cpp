@@ -11,14 +11,14 @@ namespace holomorph {
 Compositor::Compositor() : program_(composite_program()) {
   glGenVertexArrays(1, &array_);
   glGenRenderbuffers(1, &stencil_);
-  for (Target* target : {&under_, &over_, &result_}) {
+  for (Target* target : {&under_, &over_, &result_, &below_group_}) {
     glGenFramebuffers(1, &target->framebuffer);
     glGenTextures(1, &target->texture);
   }
 }
 
 Compositor::~Compositor() {
-  for (Target* target : {&under_, &over_, &result_}) {
+  for (Target* target : {&under_, &over_, &result_, &below_group_}) {
     glDeleteFramebuffers(1, &target->framebuffer);
     glDeleteTextures(1, &target->texture);
   }
@@ -29,7 +29,7 @@ Compositor::~Compositor() {
 void Compositor::resize(int width, int height) {
   glBindRenderbuffer(GL_RENDERBUFFER, stencil_);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
-  for (Target* target : {&under_, &over_, &result_}) {
+  for (Target* target : {&under_, &over_, &result_, &below_group_}) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target->texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
@@ -37,9 +37,8 @@ void Compositor::resize(int width, int height) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target->texture, 0);
-    if (target == &over_)
-      glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                                stencil_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                              stencil_);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
       width_ = height_ = 0;
       glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -52,21 +51,22 @@ void Compositor::resize(int width, int height) {
 
 void Compositor::begin(int width, int height) {
   if (width != width_ || height != height_) resize(width, height);
-  glBindFramebuffer(GL_FRAMEBUFFER, under_.framebuffer);
-  glDisable(GL_SCISSOR_TEST);
-  glClearColor(0, 0, 0, 0);
-  glClear(GL_COLOR_BUFFER_BIT);
+  clear(under_);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Compositor::begin_layer() {
-  glBindFramebuffer(GL_FRAMEBUFFER, over_.framebuffer);
+void Compositor::clear(const Target& target) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   glDisable(GL_SCISSOR_TEST);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-void Compositor::combine(const Target& into, int blending, double opacity) {
+void Compositor::begin_layer() {
+  clear(over_);
+}
+
+void Compositor::combine(const Target& into, const Ink& ink) {
   glBindFramebuffer(GL_FRAMEBUFFER, into.framebuffer);
   glUseProgram(program_.id());
   const auto bind = [&](GLenum unit, const char* name, unsigned texture) {
@@ -76,8 +76,9 @@ void Compositor::combine(const Target& into, int blending, double opacity) {
   };
   bind(1, "over_layer", over_.texture);
   bind(0, "under_layers", under_.texture);
-  glUniform1i(program_.at("blending"), blending);
-  glUniform1f(program_.at("opacity"), static_cast<float>(opacity));
+  glUniform1i(program_.at("blending"), ink.blending);
+  glUniform1f(program_.at("opacity"), static_cast<float>(ink.opacity));
+  glUniform1i(program_.at("clipped"), ink.clipped);
   glViewport(0, 0, width_, height_);
   glBindVertexArray(array_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -85,13 +86,25 @@ void Compositor::combine(const Target& into, int blending, double opacity) {
   glUseProgram(0);
 }
 
-void Compositor::end_layer(int blending, double opacity) {
+void Compositor::end_layer(const Ink& ink) {
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
-  combine(result_, blending, opacity);
+  combine(result_, ink);
   std::swap(under_, result_);
   glEnable(GL_BLEND);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Compositor::begin_group() {
+  std::swap(under_, below_group_);
+  clear(under_);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Compositor::end_group(const Ink& ink) {
+  std::swap(over_, under_);
+  std::swap(under_, below_group_);
+  end_layer(ink);
 }
 
 void Compositor::finish(int left, int bottom, int width, int height) {
@@ -100,7 +113,7 @@ void Compositor::finish(int left, int bottom, int width, int height) {
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glEnable(GL_SCISSOR_TEST);
   glScissor(left, bottom, width, height);
-  combine({0, 0}, -1, 1);
+  combine({0, 0}, {.blending = -1});
   glDisable(GL_SCISSOR_TEST);
 }
 

@@ -39,8 +39,20 @@ std::string title_of_layer(const Scene& scene, size_t layer) {
   return "Layer " + std::to_string(layer + 1);
 }
 
+std::optional<size_t> clip_base(const Scene& scene, size_t layer) {
+  if (!scene.layers[layer]->clipped) return {};
+  while (layer-- > 0)
+    if (!scene.layers[layer]->clipped) return layer;
+  return {};
+}
+
+bool is_shown(const Scene& scene, size_t layer) {
+  const std::optional<size_t> base = clip_base(scene, layer);
+  return scene.layers[layer]->visible && (!base || scene.layers[*base]->visible);
+}
+
 bool is_blended(const Layer& layer) {
-  return layer.opacity < 1 || layer.blending != Blending::normal;
+  return layer.opacity < 1 || layer.blending != Blending::normal || layer.clipped;
 }
 
 bool has_layers(const Scene& scene) {

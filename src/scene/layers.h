@@ -12,6 +12,11 @@ void reserve_layer_ids(int last);
 /// The layer's name. If it is empty, the name of the layer's picture. If there is no picture
 /// either, "Layer" and the layer's number, counting from 1.
 std::string title_of_layer(const Scene& scene, size_t layer);
+/// The layer to which a clipped layer is clipped: the nearest one below that is not clipped itself.
+/// None if the layer is not clipped, or if there is no such layer.
+std::optional<size_t> clip_base(const Scene& scene, size_t layer);
+/// Whether a layer is visible, and so is the layer to which it is clipped.
+bool is_shown(const Scene& scene, size_t layer);
 /// Whether a layer is not simply drawn over those below it.
 bool is_blended(const Layer& layer);
 /// Whether the scene is more than a single plain layer.

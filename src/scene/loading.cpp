@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/flattened_surface.h"
-#include "scene/formats/ora_image.h"
+#include "scene/formats/layered.h"
 #include "scene/formats/scene_json.h"
 #include "scene/preferences.h"
 #include "scene/prepared_map.h"
@@ -190,7 +190,11 @@ Layer layer_of_picture(const Path& file, const std::string& entry, PictureFiles&
 LoadedScene scene_of_image(const Path& path, double open_pixels) {
   LoadedScene loaded;
   PictureFiles files(open_pixels);
-  if (lower_case(path.extension().string()) != ".ora") {
+  FileLayers in_file;
+  if (may_have_layers(path)) in_file = layers_of_file(read_file(path), path.string());
+  if (!in_file.warning.empty())
+    loaded.warning = "Some parts of this file are not kept: " + in_file.warning + ". ";
+  if (in_file.layers.empty()) {
     loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
     // Parts of a photograph that move away leave gaps, which the original fills.
     if (loaded.image() && is_opaque(*loaded.image()))
@@ -198,7 +202,7 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
     return loaded;
   }
   std::vector<Layer> layers;
-  for (const OraLayer& each : ora_layers(read_file(path), path.string())) {
+  for (const FileLayer& each : in_file.layers) {
     if (layers.size() == kMaxLayers) {
       loaded.warning += "Only the lowest 100 layers were opened.";
       break;
@@ -207,7 +211,9 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
     layer.id = static_cast<int>(layers.size()) + 1;
     layer.name = each.name;
     layer.visible = each.visible;
-    if (each.blended) loaded.warning = "The blending modes of this file's layers are not kept. ";
+    layer.opacity = each.opacity;
+    layer.blending = each.blending;
+    layer.clipped = each.clipped;
     layers.push_back(std::move(layer));
   }
   size_t edited = layers.size() - 1;

@@ -38,8 +38,8 @@ LoadedScene scene_of_text(const std::string& text, const Path& path,
 /// of such pictures next to the scene file. Throws Error.
 LoadedScene scene_of_pasted(const std::string& png);
 
-/// The scene of a single picture file, without a cage. Each layer of an OpenRaster file becomes a
-/// layer of the scene.
+/// The scene of a single picture file, without a cage. Each layer of a PSD or OpenRaster
+/// file becomes a layer of the scene.
 LoadedScene scene_of_image(const Path& image, double open_pixels = 0);
 
 /// The scene of a textured surface: the texture picture, with the boundary of the texture

@@ -1,7 +1,7 @@
 // Changes to a file are detected by its modification time.
 #include "scene/pictures.h"
 
-#include "scene/formats/ora_image.h"
+#include "scene/formats/layered.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;
@@ -20,9 +20,8 @@ const PictureFiles::File& PictureFiles::read(const std::string& name) {
 Picture PictureFiles::picture(const ImageReference& reference) {
   const std::string& name = reference.file;
   const File& file = read(name);
-  Image image = reference.entry.empty()
-                    ? decode_image(file.bytes, name, pixels_)
-                    : decode_ora_layer(file.bytes, reference.entry, name, pixels_);
+  Image image = reference.entry.empty() ? decode_image(file.bytes, name, pixels_)
+                                        : decode_layer(file.bytes, reference.entry, name, pixels_);
   return {std::make_shared<const Image>(std::move(image)), file.sha256, file.changed};
 }
 

@@ -43,7 +43,7 @@ class PictureFiles {
 inline Picture read_picture(const ImageReference& reference, double open = 0) {
   return PictureFiles(open).picture(reference);
 }
-/// A reference to the picture in a file, or to one layer (`entry`) of an OpenRaster file. The
+/// A reference to the picture in a file, or to one layer (`entry`) of a file with layers. The
 /// reference has the file's absolute path.
 ImageReference reference_in(const Path& file, const std::string& entry = "");
 /// The reference with the size and SHA-256 of this picture.

@@ -6,9 +6,9 @@ namespace holomorph {
 
 bool Layer::operator==(const Layer& other) const {
   return name == other.name && visible == other.visible && locked == other.locked &&
-         opacity == other.opacity && blending == other.blending && image == other.image &&
-         deformation == other.deformation && attachment == other.attachment &&
-         placement == other.placement && extra == other.extra;
+         opacity == other.opacity && blending == other.blending && clipped == other.clipped &&
+         image == other.image && deformation == other.deformation &&
+         attachment == other.attachment && placement == other.placement && extra == other.extra;
 }
 
 Scene with_layer(Scene scene, Layer layer) {

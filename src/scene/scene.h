@@ -13,7 +13,7 @@ namespace holomorph {
 /// scene's folder in a scene file, and absolute in a loaded scene.
 struct ImageReference {
   std::string file;
-  std::string entry = {};  ///< for a layer of an OpenRaster file, its file in the archive
+  std::string entry = {};  ///< for a layer of a file with layers, its FileLayer::entry
   int width = 0, height = 0;
   std::string sha256;
   Extra extra;
@@ -44,6 +44,7 @@ struct Layer {
   bool locked = false;  ///< edits are refused
   double opacity = 1;   ///< 0 to 1
   Blending blending = Blending::normal;
+  bool clipped = false;  ///< drawn only where its base is; see clip_base()
   std::optional<ImageReference> image = {};
   Deformation deformation = {};
   std::optional<Attachment> attachment = {};

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/image.h"
-#include "scene/formats/ora_image.h"
+#include "scene/formats/layered.h"
 
 using namespace holomorph;
 
@@ -53,15 +53,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   check(set, "the budget is set");
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   try {
+    PixelBudget again;
+    if (bytes.starts_with("PK") || bytes.starts_with("8BPS"))
+      for (const FileLayer& layer : layers_of_file(bytes, "fuzz").layers)
+        decode_layer(bytes, layer.entry, "fuzz", again);
+  } catch (const Error&) {
+  }
+  try {
     const Image image = decode_image(bytes, "fuzz");
     check(image.width > 0 && image.height > 0 &&
               image.pixels.size() ==
                   4u * static_cast<size_t>(image.width) * static_cast<size_t>(image.height),
           "a picture has as many pixels as its size says");
-    PixelBudget again;
-    for (const OraLayer& layer :
-         bytes.starts_with("PK") ? ora_layers(bytes, "fuzz") : std::vector<OraLayer>{})
-      decode_ora_layer(bytes, layer.entry, "fuzz", again);
   } catch (const Error&) {
   }
   return 0;

@@ -45,6 +45,11 @@ bool is_moved(const Workspace& workspace, const Layer& layer) {
   return !is_identity(workspace.placement(layer_index(workspace.document.scene(), layer.id)));
 }
 
+Ink ink_of(const Scene& scene, size_t layer) {
+  const Layer& it = *scene.layers[layer];
+  return {static_cast<int>(it.blending), it.opacity, clip_base(scene, layer).has_value()};
+}
+
 /// The color of a solid background, which replaces the theme's background.
 Color color_of(const Background& background) {
   Color color;
@@ -107,9 +112,10 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
   std::vector<const Layer*> drawn;
   for (const SharedLayer& shared : scene.layers) {
     const Layer& layer = *shared;
-    if (&layer != &edited && (edited_only || !layer.visible)) continue;
+    const bool shows = edited_only || is_shown(scene, layer_index(scene, layer.id));
+    if (&layer != &edited && (edited_only || !shows)) continue;
     update_picture(workspace, layer);
-    if (&layer == &edited && !edited_only && !layer.visible) continue;
+    if (!shows) continue;
     painter_of(layer).update_map(workspace.maps.of(layer.id),
                                  &layer == &edited ? workspace.display.view : View::image,
                                  workspace.display.automatic_range);
@@ -138,25 +144,37 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     if (!compositor_) compositor_ = std::make_unique<Compositor>();
     compositor_->begin(frame.window_width, frame.window_height);
   }
-  const auto draw = [&](const Layer& layer, RenderFrame drawing, const Layer* ink) {
+  const auto draw = [&](const Layer& layer, RenderFrame drawing, const Ink& ink = {}) {
     if (!combines) return paint(layer, std::move(drawing));
     drawing.over = true;
     compositor_->begin_layer();
     paint(layer, std::move(drawing));
-    compositor_->end_layer(ink ? static_cast<int>(ink->blending) : 0, ink ? ink->opacity : 1);
+    compositor_->end_layer(ink);
   };
   if (scene.background.fill == Background::Fill::original && !edited_only) {
     RenderFrame as_it_was = frame;
     as_it_was.content = Content::original;
     for (const Layer* layer : drawn) {
-      draw(*layer, as_it_was, nullptr);
+      draw(*layer, as_it_was);
       as_it_was.over = true;
     }
   }
   const std::vector<OnionSkin> skins = workspace.onion_skins();
-  for (const Layer* layer : drawn) {
+  const auto number_of = [&](size_t i) { return layer_index(scene, drawn[i]->id); };
+  const auto base_of = [&](size_t i) {
+    return i < drawn.size() ? clip_base(scene, number_of(i)) : std::nullopt;
+  };
+  std::optional<size_t> group;  // the layer to which others are clipped
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    const Layer* layer = drawn[i];
+    const size_t number = number_of(i);
+    const bool starts_group = base_of(i + 1) == number;
+    if (starts_group) {
+      compositor_->begin_group();
+      group = number;
+    }
     RenderFrame drawing = frame;
-    if (!original) set_view(drawing, workspace.layer_view(layer_index(scene, layer->id)), at);
+    if (!original) set_view(drawing, workspace.layer_view(number), at);
     if (original || (layer == &edited && workspace.at_rest()))
       drawing.placement = Placement::at_rest;
     if (layer == &edited) {
@@ -164,7 +182,9 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
       for (const OnionSkin& skin : skins)
         drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
     }
-    draw(*layer, std::move(drawing), layer);
+    draw(*layer, std::move(drawing), starts_group ? Ink{} : ink_of(scene, number));
+    if (group && base_of(i + 1) != group)
+      compositor_->end_group(ink_of(scene, *std::exchange(group, std::nullopt)));
   }
   if (combines) {
     const auto px = [](double value) { return static_cast<int>(value); };

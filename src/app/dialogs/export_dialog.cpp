@@ -13,6 +13,7 @@
 #include "app/look/surfaces.h"
 #include "app/panels/panels.h"
 #include "edit/content.h"
+#include "raster/layered_picture.h"
 #include "scene/formats/file_kinds.h"
 #include "system/new_file.h"
 
@@ -31,6 +32,8 @@ struct Format {
 std::vector<Format> formats(bool plays) {
   std::vector<Format> all;
   for (const PictureFormat& format : picture_formats())
+    all.push_back({format.label, format.extension, false});
+  for (const LayeredFormat& format : layered_formats())
     all.push_back({format.label, format.extension, false});
   if (plays)
     for (const FilmFormat& format : film_formats())
@@ -181,7 +184,7 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   try {
     if (settings.film)
       film_format_of(settings.path);
-    else
+    else if (!layered_format_of(settings.path))
       picture_format_of(settings.path);
     for (const Path& file : files()) check_may_write(file, document.sources());
     if (const std::string problem = missing_picture_message(workspace_); !problem.empty())
@@ -215,13 +218,19 @@ std::string ExportDialog::start(const ExportSettings& settings) {
         work->done = "Exported " + name + ", " + std::to_string(written->frames) + " frames.";
       return;
     }
-    const RasterResult result = picture_of(scene, image, options, pictures);
+    const LayeredFormat* layered = layered_format_of(settings.path);
+    LayeredPicture picture;
+    if (layered)
+      picture = layered_picture_of(scene, image, options, pictures);
+    else
+      picture.merged = picture_of(scene, image, options, pictures).image;
     if (progress.cancelled()) return;
-    const std::string bytes = picture_format_of(settings.path).encode(result.image);
+    const std::string bytes = layered ? layered->encode(picture)
+                                      : picture_format_of(settings.path).encode(picture.merged);
     if (progress.cancelled()) return;
     write_file(settings.path, bytes);
-    work->done = "Exported " + name + ", " + std::to_string(result.image.width) + " \u00d7 " +
-                 std::to_string(result.image.height) + " px.";
+    work->done = "Exported " + name + ", " + std::to_string(picture.merged.width) + " \u00d7 " +
+                 std::to_string(picture.merged.height) + " px.";
   };
   return jobs_.run("Exporting " + settings.path.filename().string(), export_it, [this, work] {
     last_ = work->settings;

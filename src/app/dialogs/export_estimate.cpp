@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <tuple>
 
+#include "raster/layered_picture.h"
+
 namespace holomorph {
 namespace {
 
@@ -23,14 +25,19 @@ std::optional<double> estimate(const ExportEstimate::Question& question, const P
   Box shown = options.region ? *options.region : maker.rectangle();
   const double longest = std::max({shown.width(), shown.height(), 1.0});
   options.scale = std::min(question.options.scale, kSmall / longest);
+  const double more = std::pow(question.options.scale / options.scale, 2 * kGrowth);
+  if (const LayeredFormat* layered = layered_format_of("a" + question.extension))
+    return more * static_cast<double>(layered
+                                          ->encode(layered_picture_of(
+                                              scene, pictures.of(scene.layer()), options, pictures))
+                                          .size());
   const Image small = maker.picture(options).image;
   if (progress.cancelled()) return {};
   const bool is_still = std::ranges::any_of(picture_formats(), [&](const PictureFormat& format) {
     return format.extension == question.extension;
   });
   const PictureFormat& format = picture_format_of(is_still ? "a" + question.extension : "a.webp");
-  const double bytes = static_cast<double>(format.encode(small).size()),
-               more = std::pow(question.options.scale / options.scale, 2 * kGrowth);
+  const double bytes = static_cast<double>(format.encode(small).size());
   return bytes * more * (1 + kLaterFrame * (question.frames - 1));
 }
 

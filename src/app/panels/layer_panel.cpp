@@ -39,6 +39,16 @@ std::string summary_of(const Scene& scene, size_t number) {
   return text;
 }
 
+/// An arrow that turns from the row's middle down to the layer below.
+void draw_clip_arrow(ImDrawList& list, ImVec2 corner, ImU32 ink) {
+  const float arm = px(7), head = px(3), thickness = px(1.5f);
+  const ImVec2 tip = corner + ImVec2(0, arm);
+  list.AddLine(corner + ImVec2(arm, 0), corner, ink, thickness);
+  list.AddLine(corner, tip, ink, thickness);
+  list.AddLine(tip, tip + ImVec2(-head, -head), ink, thickness);
+  list.AddLine(tip, tip + ImVec2(head, -head), ink, thickness);
+}
+
 }  // namespace
 
 void LayerPanel::rename(const Scene& scene) {
@@ -74,7 +84,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
   const bool edited = layer == scene.edited, renames = renamed_id_ == state.id;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = px(48), side = px(36),
-              small = px(24);
+              small = px(24), indent = clip_base(scene, layer) ? px(16) : 0;
   ImGui::SetItemAllowOverlap();
   const bool clicked = ImGui::InvisibleButton("row", {width, height});
   const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem |
@@ -95,9 +105,10 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
   const float alpha = state.visible ? 1 : 0.4f;
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * alpha);
   draw_thumbnail(list, thumbnails.of_picture(workspace.document.pictures().shared(state)),
-                 at + ImVec2(px(8), (height - side) / 2), side, px(4));
+                 at + ImVec2(indent + px(8), (height - side) / 2), side, px(4));
+  if (indent > 0) draw_clip_arrow(list, at + ImVec2(px(14), height / 2), faded(c.muted));
   ImGui::PopStyleVar();
-  const float left = px(8) + side + px(10), buttons = 3 * small + px(8);
+  const float left = indent + px(8) + side + px(10), buttons = 3 * small + px(8);
   const float room = width - left - buttons;
   if (!renames) {
     const ImU32 ink = state.visible ? c.text : c.muted;
@@ -175,6 +186,12 @@ void LayerPanel::draw_ink(Workspace& workspace) {
   end_dropdown();
 }
 
+void LayerPanel::draw_clipping(Workspace& workspace) {
+  const Action& clip = workspace.actions.named("layer.clip");
+  if (!clip.enabled(workspace)) return;
+  if (switch_row("Clip", clip.checked(workspace), clip.hint)) run(clip, workspace);
+}
+
 void LayerPanel::draw(Workspace& workspace, Thumbnails& thumbnails) {
   const size_t count = workspace.document.scene().layers.size();
   const float bleed = px(8);  // rows reach beyond the column of text
@@ -188,6 +205,7 @@ void LayerPanel::draw(Workspace& workspace, Thumbnails& thumbnails) {
   ImGui::EndChild();
   ImGui::PopStyleVar(2);
   draw_ink(workspace);
+  draw_clipping(workspace);
   for (const char* id : {"layer.add", "layer.double", "layer.up", "layer.down"}) {
     action_icon_button(id, workspace);
     ImGui::SameLine(0, px(4));

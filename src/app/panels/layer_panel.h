@@ -19,6 +19,8 @@ class LayerPanel {
  private:
   void draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbnails);
   void draw_ink(Workspace& workspace);
+  /// Whether the edited layer is clipped to the one below it.
+  void draw_clipping(Workspace& workspace);
   void draw_name(Workspace& workspace, size_t layer, float width);
 
   int renamed_id_ = 0;  ///< id of the layer whose name is being typed; 0: none

@@ -56,6 +56,16 @@ void lock_layer(Workspace& w) {
                   with_layer(w.document.scene(), layer));
 }
 
+bool may_clip(const Workspace& w) {
+  return w.document.scene().edited > 0 || w.document.scene().layer().clipped;
+}
+void clip_layer(Workspace& w) {
+  Layer layer = w.document.scene().layer();
+  layer.clipped = !layer.clipped;
+  w.commit_layers(layer.clipped ? "Clip layer" : "Release layer",
+                  with_layer(w.document.scene(), layer));
+}
+
 template <Background::Fill fill>
 void set_background(Workspace& w) {
   Scene scene = w.document.scene();
@@ -163,6 +173,15 @@ std::vector<Action> layer_actions() {
           .keys = {{Key::page_down, kCtrl}},
           .enabled = has_neighbor<-1>,
           .run = move<-1>,
+      },
+      {
+          .id = "layer.clip",
+          .label = "Clip to the layer below",
+          .hint = "Draw the layer only where the one below it is, as a pupil in an eye",
+          .keys = {{'G', kCtrlAlt}},
+          .enabled = may_clip,
+          .run = clip_layer,
+          .checked = [](const Workspace& w) { return w.document.scene().layer().clipped; },
       },
       {
           .id = "layer.visible",

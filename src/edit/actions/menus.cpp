@@ -61,6 +61,7 @@ const std::vector<MenuItem>& menus() {
         {"layer.lock"},
         {"layer.attach"},
         {"layer.detach"},
+        {"layer.clip"},
         separator,
         {"Background",
          {{"background.transparent"}, {"background.color"}, {"background.original"}}}}},

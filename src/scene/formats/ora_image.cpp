@@ -22,6 +22,16 @@ constexpr zip_uint64_t kLargestDescription = 4u << 20;
 constexpr int kDeepestGroup = 50;   ///< levels of groups
 constexpr int kFarthest = 1 << 20;  ///< offset of a layer from the canvas's corner
 
+struct BlendingMode {
+  const char* name;
+  Blending blending;
+};
+constexpr BlendingMode kModes[] = {{"svg:src-over", Blending::normal},
+                                   {"svg:multiply", Blending::multiply},
+                                   {"svg:screen", Blending::screen},
+                                   {"svg:overlay", Blending::overlay},
+                                   {"svg:plus", Blending::add}};
+
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw Error(ErrorKind::bad_input, name + ": the OpenRaster file is damaged: " + what);
 }
@@ -65,7 +75,7 @@ class Archive {
 };
 
 struct Placed {
-  OraLayer layer;
+  FileLayer layer;
   int x = 0, y = 0;  ///< the layer's upper left corner on the canvas
   double opacity = 1;
 };
@@ -86,11 +96,16 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
     here.layer.visible = inherited.layer.visible &&
                          std::string(node.attribute("visibility").as_string()) != "hidden";
     const std::string mode = node.attribute("composite-op").as_string("svg:src-over");
-    here.layer.blended = inherited.layer.blended || mode != "svg:src-over";
+    const auto known = std::ranges::find(kModes, mode, &BlendingMode::name);
+    const bool is_group = std::string(node.name()) == "stack";
+    if (known == std::end(kModes) || (is_group && known->blending != Blending::normal))
+      here.layer.lost = "its blending mode";
+    else if (!is_group)
+      here.layer.blending = known->blending;
     here.x = std::clamp(here.x + offset(node, "x"), -kFarthest, kFarthest);
     here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
     here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
-    if (std::string(node.name()) == "stack") collect(node, here, depth + 1, stack);
+    if (is_group) collect(node, here, depth + 1, stack);
     if (std::string(node.name()) != "layer") continue;
     here.layer.entry = node.attribute("src").as_string();
     if (lower_case(Path(here.layer.entry).extension().string()) == ".png")
@@ -127,11 +142,16 @@ Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget&
   return Archive(bytes, name).picture("mergedimage.png", pixels);
 }
 
-std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& name) {
+FileLayers ora_layers(const std::string& bytes, const std::string& name) {
   const Stack stack = stack_of(Archive(bytes, name), name);
-  std::vector<OraLayer> layers;
-  for (size_t i = stack.layers.size(); i-- > 0;) layers.push_back(stack.layers[i].layer);
-  return layers;
+  FileLayers all;
+  for (size_t i = stack.layers.size(); i-- > 0;) {
+    const FileLayer& layer = stack.layers[i].layer;
+    all.layers.push_back(layer);
+    if (!layer.lost.empty())
+      all.warning += (all.warning.empty() ? "" : "; ") + layer.name + ": " + layer.lost;
+  }
+  return all;
 }
 
 Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name,

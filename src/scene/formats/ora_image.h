@@ -1,22 +1,18 @@
 // OpenRaster files: pictures with layers, written by Krita, GIMP and MyPaint.
 #pragma once
 
-#include "scene/formats/image.h"
+#include "scene/formats/layered.h"
 
 namespace holomorph {
 
-/// A layer of an OpenRaster file, without its pixels.
-struct OraLayer {
-  std::string name, entry;  ///< the layer's name, and its file in the archive
-  bool visible = true;
-  bool blended = false;  ///< has a blending mode other than normal
-};
-
-/// The layers from bottom to top, as a flat list without groups. Throws Error{bad_input}.
-std::vector<OraLayer> ora_layers(const std::string& bytes, const std::string& name);
-/// Decodes one layer as a picture of the canvas's size. The layer's opacity is applied to the
-/// pixels. Blending modes are ignored. Throws Error{bad_input}.
+/// The layers, except those that are not PNG files. Throws Error{bad_input}.
+FileLayers ora_layers(const std::string& bytes, const std::string& name);
+/// Decodes one layer, and applies its opacity to the pixels. Throws Error{bad_input}.
 Image decode_ora_layer(const std::string& bytes, const std::string& entry, const std::string& name,
                        PixelBudget& pixels);
+
+/// The bytes of an OpenRaster file. Clipped layers are cut to the shape of their base, because the
+/// format has no clipping. Throws Error{failed}.
+std::string encode_ora(const LayeredPicture& picture);
 
 }  // namespace holomorph

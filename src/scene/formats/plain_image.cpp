@@ -1,6 +1,7 @@
 // Reads BMP, TGA and PSD files with stb_image. stb_image reads missing bytes as zeros and does not
 // check the sizes in a file. Therefore this file first checks that all pixels are present.
 #include "core/error.h"
+#include "scene/formats/file_bytes.h"
 #include "scene/formats/image_formats.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -22,40 +23,6 @@
 namespace holomorph {
 namespace {
 
-/// Reads numbers from the bytes of a file. Reading past the end is an error.
-class Bytes {
- public:
-  Bytes(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
-
-  size_t at(size_t place) const {
-    need(place, 1);
-    return static_cast<unsigned char>(bytes_[place]);
-  }
-  size_t little(size_t place, size_t count) const {
-    size_t value = 0;
-    for (size_t k = count; k-- > 0;) value = value << 8 | at(place + k);
-    return value;
-  }
-  size_t big(size_t place, size_t count) const {
-    size_t value = 0;
-    for (size_t k = 0; k < count; ++k) value = value << 8 | at(place + k);
-    return value;
-  }
-  /// Throws Error unless there are `count` bytes at offset `place`.
-  void need(size_t place, size_t count) const {
-    if (place > bytes_.size() || count > bytes_.size() - place)
-      throw Error(ErrorKind::bad_input,
-                  name_ + ": the picture is incomplete: the file ends too early");
-  }
-  [[noreturn]] void damaged(const char* why) const {
-    throw Error(ErrorKind::bad_input, name_ + ": the picture is damaged (" + why + ")");
-  }
-
- private:
-  const std::string& bytes_;
-  const std::string& name_;
-};
-
 struct Size {
   size_t width = 0, height = 0;
 };
@@ -65,14 +32,14 @@ size_t magnitude(size_t value) {
   return value < size_t{1} << 31 ? value : (size_t{1} << 32) - value;
 }
 
-Size bmp_size(const Bytes& file) {
+Size bmp_size(const FileBytes& file) {
   const size_t header = file.little(14, 4);
   const bool old = header == 12;
   return {old ? file.little(18, 2) : magnitude(file.little(18, 4)),
           old ? file.little(20, 2) : magnitude(file.little(22, 4))};
 }
 
-void check_bmp(const Bytes& file, const Size& size) {
+void check_bmp(const FileBytes& file, const Size& size) {
   const size_t header = file.little(14, 4);
   if (header != 12 && header != 40 && header != 56 && header != 108 && header != 124)
     file.damaged("its header has an unknown format");
@@ -84,11 +51,11 @@ void check_bmp(const Bytes& file, const Size& size) {
   file.need(pixels, row * (size.height - 1) + (size.width * bits + 7) / 8);
 }
 
-Size tga_size(const Bytes& file) {
+Size tga_size(const FileBytes& file) {
   return {file.little(12, 2), file.little(14, 2)};
 }
 
-void check_tga(const Bytes& file, const Size& size) {
+void check_tga(const FileBytes& file, const Size& size) {
   const size_t kind = file.at(2), pixel = (file.at(16) + 7) / 8,
                colors =
                    file.at(1) ? file.little(3, 2) + file.little(5, 2) * ((file.at(7) + 7) / 8) : 0;
@@ -104,11 +71,11 @@ void check_tga(const Bytes& file, const Size& size) {
   }
 }
 
-Size psd_size(const Bytes& file) {
+Size psd_size(const FileBytes& file) {
   return {file.big(18, 4), file.big(14, 4)};
 }
 
-void check_psd(const Bytes& file, const Size& size) {
+void check_psd(const FileBytes& file, const Size& size) {
   const size_t channels = file.big(12, 2), bytes = file.big(22, 2) / 8;
   size_t place = 26;
   for (int section = 0; section < 3; ++section) {
@@ -145,9 +112,9 @@ bool is_tga(const std::string& bytes) {
 }
 
 Image decode(const std::string& bytes, const std::string& name, const Size& size,
-             PixelBudget& pixels, void (*check)(const Bytes&, const Size&)) {
+             PixelBudget& pixels, void (*check)(const FileBytes&, const Size&)) {
   constexpr size_t kLargestFile = 1u << 30;  // stb_image stores sizes as int
-  const Bytes file(bytes, name);
+  const FileBytes file(bytes, name);
   if (size.width == 0 || size.height == 0 || bytes.size() > kLargestFile)
     file.damaged("its size is invalid");
   pixels.take(size.width, size.height, name);
@@ -171,7 +138,7 @@ Image decode(const std::string& bytes, const std::string& name, const Size& size
 
 std::optional<Image> decode_plain(const std::string& bytes, const std::string& name,
                                   PixelBudget& pixels) {
-  const Bytes file(bytes, name);
+  const FileBytes file(bytes, name);
   if (bytes.starts_with("BM")) return decode(bytes, name, bmp_size(file), pixels, check_bmp);
   if (bytes.starts_with("8BPS")) return decode(bytes, name, psd_size(file), pixels, check_psd);
   if (is_tga(bytes)) return decode(bytes, name, tga_size(file), pixels, check_tga);

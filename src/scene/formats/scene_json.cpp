@@ -181,11 +181,12 @@ void read_layers(const Reader& reader, Scene& scene) {
         item["opacity"].fail("expected a number from 0 to 1");
     }
     if (item.has("blending")) layer.blending = read_blending(item["blending"]);
+    if (item.has("clipped")) layer.clipped = item["clipped"].truth();
     if (item.has("attachment")) layer.attachment = read_attachment(item["attachment"]);
     if (item.has("placement")) layer.placement = read_placement(item["placement"]);
-    layer.extra = item.others(
-        {"name", "visible", "locked", "opacity", "blending", "id", "attachment", "placement"},
-        kLayerKeys);
+    layer.extra = item.others({"name", "visible", "locked", "opacity", "blending", "clipped", "id",
+                               "attachment", "placement"},
+                              kLayerKeys);
     layers.push_back(std::move(layer));
   }
   set_ids(list, layers);
@@ -296,6 +297,7 @@ Json layers_json(const Scene& scene) {
     if (layer.opacity < 1) item["opacity"] = layer.opacity;
     if (layer.blending != Blending::normal)
       item["blending"] = kBlendingNames[static_cast<size_t>(layer.blending)];
+    if (layer.clipped) item["clipped"] = true;
     if (is_parent(scene, layer)) item["id"] = layer.id;
     if (layer.attachment) item["attachment"] = attachment_json(*layer.attachment);
     if (!is_identity(layer.placement)) {

@@ -1,0 +1,15 @@
+// Draws a scene layer by layer, for files with layers.
+#pragma once
+
+#include "raster/picture.h"
+#include "scene/formats/layered.h"
+
+namespace holomorph {
+
+/// The posed layers of a scene, hidden ones too, and the picture that they make together. A
+/// background other than a transparent one becomes the lowest layer. Arguments and errors are those
+/// of picture_of(), except that the view is always View::image.
+LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
+                                  const PictureOptions& options, const Pictures& other_pictures);
+
+}  // namespace holomorph

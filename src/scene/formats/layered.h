@@ -1,0 +1,63 @@
+// Pictures with layers: OpenRaster (Krita, GIMP, MyPaint) and PSD (Photoshop and most others).
+#pragma once
+
+#include "scene/formats/image.h"
+#include "scene/scene.h"
+
+namespace holomorph {
+
+/// A layer of a file, without its pixels.
+struct FileLayer {
+  std::string name;   ///< with the names of its groups: "group/name"
+  std::string entry;  ///< what identifies the layer in its file
+  bool visible = true;
+  double opacity = 1;  ///< of the layer and its groups, unless decode_layer() applies it
+  Blending blending = Blending::normal;
+  bool clipped = false;
+  std::string lost = {};  ///< what cannot be kept, such as "its effects"; empty if nothing
+};
+
+/// The layers of a file from bottom to top, as a flat list without groups; empty if the file has no
+/// layers that can be read. `warning` says which parts of the file are lost.
+struct FileLayers {
+  std::vector<FileLayer> layers;
+  std::string warning;
+};
+
+/// Whether files with this name may have layers.
+bool may_have_layers(const Path& file);
+/// Throws Error{bad_input} if the file is damaged.
+FileLayers layers_of_file(const std::string& bytes, const std::string& name);
+/// Decodes one layer as a picture of the canvas's size; what lies outside the canvas is dropped.
+/// Throws Error{bad_input}, also if there is no layer with this entry.
+Image decode_layer(const std::string& bytes, const std::string& entry, const std::string& name,
+                   PixelBudget& pixels);
+
+/// A layer that is written to a file.
+struct DrawnLayer {
+  std::string name;
+  Image image;
+  int left = 0, top = 0;  ///< of the image, in pixels from the upper left corner of the canvas
+  bool visible = true;
+  double opacity = 1;
+  Blending blending = Blending::normal;
+  bool clipped = false;
+};
+/// A picture with layers, from bottom to top, and how it looks as a whole. The size of `merged` is
+/// that of the canvas.
+struct LayeredPicture {
+  std::vector<DrawnLayer> layers;
+  Image merged;
+};
+
+/// A file format with layers.
+struct LayeredFormat {
+  std::string label, extension;
+  std::string (*encode)(const LayeredPicture& picture);
+};
+/// PSD, and OpenRaster, which has no clipping: clipped layers are cut to the shape of their base.
+const std::vector<LayeredFormat>& layered_formats();
+/// The format with this extension; null if there is none.
+const LayeredFormat* layered_format_of(const Path& file);
+
+}  // namespace holomorph

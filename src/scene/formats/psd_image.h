@@ -1,0 +1,20 @@
+// Photoshop files with layers.
+#pragma once
+
+#include "scene/formats/layered.h"
+
+namespace holomorph {
+
+bool is_psd(const std::string& bytes);
+/// Reads the layers of files with 8 bits per channel in RGB or gray. Other files have no layers
+/// here, and the warning says why. Throws Error{bad_input}.
+FileLayers psd_layers(const std::string& bytes, const std::string& name);
+/// Decodes one layer and applies its mask. Throws Error{bad_input}.
+Image decode_psd_layer(const std::string& bytes, const std::string& entry, const std::string& name,
+                       PixelBudget& pixels);
+
+/// The bytes of a PSD file (RGBA, 8 bits, run lengths). Throws Error{failed} if it would exceed the
+/// format's limit of 2 GB.
+std::string encode_psd(const LayeredPicture& picture);
+
+}  // namespace holomorph
