@@ -68,7 +68,7 @@ LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
     for (const Complex& z : layer.f) box.include(layer.placement(z));
   }
   const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
-  std::optional<RasterResult> result;
+  Composition all(scale);
   for (const DrawnLayer& layer : layers) {
     RasterJob job;
     job.mesh = layer.mesh.get();
@@ -82,18 +82,13 @@ LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
     job.pixels_per_unit = scale;
     job.region = box;
     job.top = box.top;
-    RasterResult drawn = rasterized(job);
-    if (result) {
-      result = composed(std::move(*result), drawn, scale, layer.ink);
-    } else {
-      fade(drawn.image, layer.ink);
-      result = std::move(drawn);
-    }
+    all.add(rasterized(job), layer.ink);
   }
+  RasterResult result = all.result();
   LastPicture picture;
-  picture.box.include(result->corner);
-  picture.box.include(result->corner + Complex(result->image.width, result->image.height) / scale);
-  picture.image = std::move(result->image);
+  picture.box.include(result.corner);
+  picture.box.include(result.corner + Complex(result.image.width, result.image.height) / scale);
+  picture.image = std::move(result.image);
   return picture;
 }
 
@@ -149,11 +144,13 @@ void LastPictureView::keep(const Workspace& workspace) {
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     const auto picture = workspace.document.pictures().shared(layer);
-    if (!layer.visible || !picture) continue;
+    const std::optional<size_t> base = clip_base(scene, i);
+    const bool has_base = !base || workspace.document.pictures().shared(*scene.layers[*base]);
+    if (!is_shown(scene, i) || !picture || !has_base) continue;
     const LiveMap& map = workspace.maps.of(layer.id);
     const bool bent = layer.deformation.has_cage() && map.has_map();
     layers.push_back({bent ? map.drawn() : nullptr, bent ? map.map().f : VectorXc(), picture,
-                      workspace.placement(i), ink_of(layer)});
+                      workspace.placement(i), ink_of(scene, i)});
   }
   if (layers.empty()) return;
   job_ = std::make_unique<Job>(

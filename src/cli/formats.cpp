@@ -69,7 +69,10 @@ std::vector<Row> rows() {
     std::vector<std::string> writes = written_to(kind.extensions[0]);
     if (kind.content == FileContent::scene || kind.content == FileContent::points)
       writes.push_back(text_of(kind.content));
-    rows.push_back({joined(kind.extensions, " "), text_of(kind.content), joined(writes, "; ")});
+    const bool layered = may_have_layers("a" + kind.extensions[0]);
+    rows.push_back({joined(kind.extensions, " "),
+                    layered ? "a picture with its layers" : text_of(kind.content),
+                    joined(writes, "; ")});
     known.insert(known.end(), kind.extensions.begin(), kind.extensions.end());
   }
   for (const ExportFormat& format : export_formats())

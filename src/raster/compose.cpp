@@ -1,4 +1,5 @@
-// Uses only integer arithmetic, which keeps opaque pixels and pixels of a single picture exact.
+// A picture that nothing is composited with keeps its bits. All others become floating-point
+// numbers until the end, because the rounding of many faint layers would be visible.
 #include "raster/compose.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "scene/layers.h"
 
 namespace holomorph {
 namespace {
@@ -15,45 +17,47 @@ unsigned divided_by_255(unsigned x) {
   return (x + 127) / 255;
 }
 
-/// The color channel that a blending mode makes of the colors above and below.
-unsigned blended(Blending mode, unsigned over, unsigned under) {
+/// The color channel that a blending mode makes of the colors above and below, from 0 to 1.
+float blended(Blending mode, float over, float under) {
   switch (mode) {
     case Blending::multiply:
-      return divided_by_255(over * under);
+      return over * under;
     case Blending::screen:
-      return over + under - divided_by_255(over * under);
+      return over + under - over * under;
     case Blending::overlay:
-      return under < 128 ? divided_by_255(2 * over * under)
-                         : 255 - divided_by_255(2 * (255 - over) * (255 - under));
+      return under < 0.5f ? 2 * over * under : 1 - 2 * (1 - over) * (1 - under);
     case Blending::add:
-      return std::min(255u, over + under);
+      return std::min(1.0f, over + under);
     case Blending::normal:
       break;
   }
   return over;
 }
 
-/// Blends the pixel `over` onto the pixel `under`, both in straight alpha (W3C Compositing and
-/// Blending, 5.6 and 9.1.3).
-void blend(const std::uint8_t* over, std::uint8_t* under, const LayerInk& ink = {}) {
-  const unsigned a = divided_by_255(over[3] * ink.opacity), b = under[3];
-  const bool is_normal = ink.blending == Blending::normal;
-  if (a == 0 || (b == 0 && ink.clipped)) return;
-  if ((a == 255 && is_normal) || b == 0) {
-    std::memcpy(under, over, 3);
-    if (!ink.clipped) under[3] = static_cast<std::uint8_t>(a);
-    return;
+/// Multiplies the alpha of all pixels by the opacity.
+void fade(Image& image, const LayerInk& ink) {
+  if (ink.opacity == 255) return;
+  for (size_t i = 3; i < image.pixels.size(); i += 4)
+    image.pixels[i] = static_cast<std::uint8_t>(divided_by_255(image.pixels[i] * ink.opacity));
+}
+
+/// Blends one pixel onto another (W3C Compositing and Blending, 5.6, 9.1.3, and source-atop for
+/// clipped ink).
+void blend_pixel(const std::array<float, 4>& over, std::array<float, 4>& under,
+                 const LayerInk& ink) {
+  const float opacity = static_cast<float>(ink.opacity) / 255, a = over[3] * opacity, b = under[3];
+  if (a <= 0 || (ink.clipped && b <= 0)) return;
+  const float shown = ink.clipped ? b : 1;  // the part of `over` that can be seen
+  if (ink.blending == Blending::normal) {
+    for (size_t k = 0; k < 3; ++k) under[k] = shown * opacity * over[k] + (1 - a) * under[k];
+  } else {
+    for (size_t k = 0; k < 3; ++k) {
+      const float cs = over[k] / over[3],
+                  mixed = b > 0 ? blended(ink.blending, cs, under[k] / b) : cs;
+      under[k] = shown * a * ((1 - b) * cs + b * mixed) + (1 - a) * under[k];
+    }
   }
-  // Weights of the colors above, below and blended, in units of 1 / 255^2. With clipping, the alpha
-  // below is that of the result (source-atop).
-  const unsigned both = a * b, above = a * (255 - b), below = (ink.clipped ? 255 : b) * (255 - a),
-                 all = above + below + both;
-  for (int k = 0; k < 3; ++k) {
-    const unsigned mixed = blended(ink.blending, over[k], under[k]);
-    under[k] = static_cast<std::uint8_t>(
-        (above * over[k] + below * under[k] + both * mixed + all / 2) / all);
-  }
-  if (!ink.clipped) under[3] = static_cast<std::uint8_t>((all + 127) / 255);
+  if (!ink.clipped) under[3] = a + b - a * b;
 }
 
 /// The rows and columns of the pixels with some alpha: from the first to behind the last.
@@ -71,60 +75,105 @@ PixelRange filled_range(const Image& image) {
   return range;
 }
 
-struct PixelOffset {
-  int column = 0, row = 0;
-};
-
 }  // namespace
 
-LayerInk ink_of(const Layer& layer) {
-  return {static_cast<unsigned>(std::lround(255 * std::clamp(layer.opacity, 0.0, 1.0))),
-          layer.blending, layer.clipped};
+LayerInk ink_of(const Scene& scene, size_t layer) {
+  const Layer& it = *scene.layers[layer];
+  return {static_cast<unsigned>(std::lround(255 * std::clamp(it.opacity, 0.0, 1.0))), it.blending,
+          clip_base(scene, layer).has_value()};
 }
 
-void fade(Image& image, const LayerInk& ink) {
-  if (ink.opacity == 255) return;
-  for (size_t i = 3; i < image.pixels.size(); i += 4)
-    image.pixels[i] = static_cast<std::uint8_t>(divided_by_255(image.pixels[i] * ink.opacity));
+Composition::Layer Composition::layer_of(const RasterResult& picture) {
+  const Image& image = picture.image;
+  Layer layer{image.width, image.height, picture.corner, {}};
+  layer.pixels.resize(image.pixels.size() / 4);
+  for (size_t i = 0; i < layer.pixels.size(); ++i) {
+    const std::uint8_t* from = &image.pixels[4 * i];
+    const float alpha = static_cast<float>(from[3]) / 255;
+    for (size_t k = 0; k < 3; ++k) layer.pixels[i][k] = alpha * (static_cast<float>(from[k]) / 255);
+    layer.pixels[i][3] = alpha;
+  }
+  return layer;
 }
 
-RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit,
-                      const LayerInk& ink) {
+void Composition::add(RasterResult picture, const LayerInk& ink) {
+  if (ink.clipped) {
+    check(base_.has_value(), "Composition: the first picture is not clipped");
+    if (!group_) group_ = layer_of(*base_);
+    return blend(layer_of(picture), *group_, ink);
+  }
+  if (base_) below_ = all();
+  group_.reset();
+  base_ = std::move(picture);
+  base_ink_ = ink;
+}
+
+Composition::Layer Composition::all() const {
+  const Layer over = group_ ? *group_ : layer_of(*base_);
+  Layer under = below_ ? *below_ : Layer{0, 0, over.corner, {}};
+  enlarge(under, over);
+  blend(over, under, base_ink_);
+  return under;
+}
+
+RasterResult Composition::result() const {
+  check(base_.has_value(), "Composition: there is a picture");
+  if (!below_ && !group_) {
+    RasterResult only = *base_;
+    fade(only.image, base_ink_);
+    return only;
+  }
+  const Layer layer = all();
+  RasterResult result{Image(layer.width, layer.height), layer.corner};
+  for (size_t i = 0; i < layer.pixels.size(); ++i) {
+    const Pixel& from = layer.pixels[i];
+    std::uint8_t* to = &result.image.pixels[4 * i];
+    to[3] = static_cast<std::uint8_t>(255 * from[3] + 0.5f);
+    if (to[3] == 0) continue;
+    for (size_t k = 0; k < 3; ++k)
+      to[k] = static_cast<std::uint8_t>(std::min(255.0f, 255 * (from[k] / from[3]) + 0.5f));
+  }
+  return result;
+}
+
+void Composition::enlarge(Layer& under, const Layer& over) const {
   // `corner` is the lower left corner of a picture, but rows are counted from the top.
-  const auto shift = [&](double by) { return static_cast<int>(std::lround(by * pixels_per_unit)); };
+  const auto shift = [&](double by) {
+    return static_cast<int>(std::lround(by * pixels_per_unit_));
+  };
   const int right = shift(over.corner.real() - under.corner.real()),
             up = shift(over.corner.imag() - under.corner.imag());
-  int left_edge = 0, bottom_edge = 0, width = under.image.width, height = under.image.height;
-  if (!ink.clipped) {
-    left_edge = std::min(0, right);
-    bottom_edge = std::min(0, up);
-    width = std::max(width, right + over.image.width) - left_edge;
-    height = std::max(height, up + over.image.height) - bottom_edge;
-  }
+  const int left_edge = std::min(0, right), bottom_edge = std::min(0, up);
+  const int width = std::max(under.width, right + over.width) - left_edge,
+            height = std::max(under.height, up + over.height) - bottom_edge;
   constexpr int kLargest = 16384;
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input,
                 "the picture would have more than 16384 pixels on a side; choose a smaller scale");
-  const auto offset_of = [&](const Image& image, int x, int y) {
-    return PixelOffset{x - left_edge, height - (y - bottom_edge) - image.height};
+  if (width == under.width && height == under.height) return;
+  Layer larger{
+      width, height, under.corner + Complex(left_edge, bottom_edge) / pixels_per_unit_, {}};
+  larger.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+  const int top = height + bottom_edge - under.height;
+  for (int r = 0; r < under.height; ++r)
+    std::copy_n(under.pixels.begin() + static_cast<long>(r) * under.width, under.width,
+                larger.pixels.begin() + static_cast<long>(top + r) * width - left_edge);
+  under = std::move(larger);
+}
+
+void Composition::blend(const Layer& over, Layer& under, const LayerInk& ink) const {
+  const auto shift = [&](double by) {
+    return static_cast<int>(std::lround(by * pixels_per_unit_));
   };
-  RasterResult result = std::move(under);
-  if (width != result.image.width || height != result.image.height) {
-    const PixelOffset at = offset_of(result.image, 0, 0);
-    Image larger(width, height);
-    for (int r = 0; r < result.image.height; ++r)
-      std::memcpy(larger.at(at.column, at.row + r), result.image.at(0, r),
-                  4 * static_cast<size_t>(result.image.width));
-    result.image = std::move(larger);
-    result.corner += Complex(left_edge, bottom_edge) / pixels_per_unit;
+  const int left = shift(over.corner.real() - under.corner.real()),
+            top = under.height - shift(over.corner.imag() - under.corner.imag()) - over.height;
+  const int rows = std::min(over.height, under.height - top),
+            columns = std::min(over.width, under.width - left);
+  for (int r = std::max(0, -top); r < rows; ++r) {
+    const Pixel* from = &over.pixels[static_cast<size_t>(r) * static_cast<size_t>(over.width)];
+    Pixel* to = under.pixels.data() + static_cast<long>(top + r) * under.width + left;
+    for (int c = std::max(0, -left); c < columns; ++c) blend_pixel(from[c], to[c], ink);
   }
-  const PixelOffset at = offset_of(over.image, right, up);
-  const int rows = std::min(over.image.height, height - at.row),
-            columns = std::min(over.image.width, width - at.column);
-  for (int r = std::max(0, -at.row); r < rows; ++r)
-    for (int c = std::max(0, -at.column); c < columns; ++c)
-      blend(over.image.at(c, r), result.image.at(at.column + c, at.row + r), ink);
-  return result;
 }
 
 Box filled_box(const RasterResult& result, double pixels_per_unit) {
@@ -153,9 +202,12 @@ RasterResult cropped_to_filled(RasterResult result, double pixels_per_unit) {
 
 void composite_onto_color(Image& image, const std::array<std::uint8_t, 3>& color) {
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
-    std::uint8_t pixel[4] = {color[0], color[1], color[2], 255};
-    blend(&image.pixels[i], pixel);
-    std::memcpy(&image.pixels[i], pixel, 4);
+    std::uint8_t* pixel = &image.pixels[i];
+    const unsigned alpha = pixel[3];
+    for (size_t k = 0; k < 3; ++k)
+      pixel[k] =
+          static_cast<std::uint8_t>(divided_by_255(alpha * pixel[k] + (255 - alpha) * color[k]));
+    pixel[3] = 255;
   }
 }
 

@@ -1,6 +1,10 @@
 // Composites pictures over one another.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <vector>
+
 #include "raster/raster.h"
 #include "scene/scene.h"
 
@@ -10,19 +14,46 @@ namespace holomorph {
 struct LayerInk {
   unsigned opacity = 255;
   Blending blending = Blending::normal;
-  bool clipped = false;  ///< changes the colors below, but not their alpha
+  bool clipped =
+      false;  ///< changes the colors of the last layer that is not clipped, not its alpha
 };
-LayerInk ink_of(const Layer& layer);
+/// The ink of a layer of a scene.
+LayerInk ink_of(const Scene& scene, size_t layer);
 
-/// Composites `over` onto `under`, in the smallest picture that contains both, in 8-bit straight
-/// alpha. Both must have the same resolution, and their corners must be a whole number of pixels
-/// apart. Opaque pixels of `over`, and pixels covered by only one of the pictures, are copied bit
-/// for bit with the usual ink. With clipped ink, the result is as large as `under`. Throws
-/// Error{bad_input} if the result would have more than 16384 pixels on a side.
-RasterResult composed(RasterResult under, const RasterResult& over, double pixels_per_unit,
-                      const LayerInk& ink = {});
-/// Multiplies the alpha of all pixels by the opacity.
-void fade(Image& image, const LayerInk& ink);
+/// Composites pictures over one another, from the lowest to the uppermost, in floating point. The
+/// result is the smallest picture that contains all that are not clipped.
+class Composition {
+ public:
+  explicit Composition(double pixels_per_unit) : pixels_per_unit_(pixels_per_unit) {}
+
+  /// Adds a picture, whose corner must be a whole number of pixels away from the others'. Opaque
+  /// pixels with the usual ink, and pixels of only one picture, are copied bit for bit. Throws
+  /// Error{bad_input} if the result would have more than 16384 pixels on a side. The first picture
+  /// must not be clipped.
+  void add(RasterResult picture, const LayerInk& ink = {});
+  bool empty() const { return !base_; }
+  /// The result in 8-bit straight alpha. There must be a picture.
+  RasterResult result() const;
+
+ private:
+  using Pixel = std::array<float, 4>;  ///< premultiplied, 0 to 1
+  struct Layer {
+    int width = 0, height = 0;
+    Complex corner;
+    std::vector<Pixel> pixels;
+  };
+  static Layer layer_of(const RasterResult& picture);
+  void blend(const Layer& over, Layer& under, const LayerInk& ink) const;
+  void enlarge(Layer& under, const Layer& over) const;
+  /// What has been added so far, up to the base and what is clipped to it.
+  Layer all() const;
+
+  double pixels_per_unit_;
+  std::optional<Layer> below_;
+  std::optional<RasterResult> base_;  ///< the last picture that is not clipped
+  LayerInk base_ink_;
+  std::optional<Layer> group_;  ///< the base with what is clipped to it; none if nothing is
+};
 
 /// The part of the plane that pixels with some alpha cover; empty if there are none.
 Box filled_box(const RasterResult& result, double pixels_per_unit);

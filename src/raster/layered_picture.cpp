@@ -24,17 +24,6 @@ DrawnLayer on_canvas(const RasterResult& drawn, const RasterResult& canvas, doub
   return layer;
 }
 
-DrawnLayer solid(const Image& canvas, const std::array<std::uint8_t, 3>& color) {
-  DrawnLayer layer;
-  layer.name = "Background";
-  layer.image = Image(canvas.width, canvas.height);
-  for (size_t i = 0; i < layer.image.pixels.size(); i += 4) {
-    std::ranges::copy(color, &layer.image.pixels[i]);
-    layer.image.pixels[i + 3] = 255;
-  }
-  return layer;
-}
-
 }  // namespace
 
 LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
@@ -45,8 +34,7 @@ LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
   const RasterResult canvas = maker.picture(options);
   LayeredPicture picture;
   picture.merged = canvas.image;
-  if (scene.background.fill == Background::Fill::color)
-    picture.layers.push_back(solid(canvas.image, scene.background.color));
+  if (scene.background.fill == Background::Fill::color) picture.background = scene.background.color;
   if (scene.background.fill == Background::Fill::original)
     if (const auto original = maker.originals(options))
       picture.layers.push_back(on_canvas(*original, canvas, options.scale, "Original"));

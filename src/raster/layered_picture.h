@@ -6,8 +6,8 @@
 
 namespace holomorph {
 
-/// The posed layers of a scene, hidden ones too, and the picture that they make together. A
-/// background other than a transparent one becomes the lowest layer. Arguments and errors are those
+/// The posed layers of a scene, hidden ones too, and the picture that they make together. The
+/// original pictures, if they are the background, become the lowest layer. Arguments and errors are those
 /// of picture_of(), except that the view is always View::image.
 LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
                                   const PictureOptions& options, const Pictures& other_pictures);

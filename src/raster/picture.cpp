@@ -32,7 +32,6 @@ class PictureMaker::LayerMaker {
 
   const Image* source() const { return source_; }
   bool visible() const { return layer_.visible && source_; }
-  LayerInk ink() const { return ink_of(layer_); }
 
   RasterResult picture(const PictureOptions& options, double top, const Similarity& placement) {
     RasterJob job = job_of(options, top);
@@ -223,13 +222,11 @@ std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOpti
 
 std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) const {
   const Frame frame = frame_of(options);
-  std::optional<RasterResult> all;
-  for (const auto& layer : layers_) {
-    if (!layer->source() || (has_layers(scene_) && !layer->visible())) continue;
-    RasterResult original = layer->original(frame.options, frame.top);
-    all = all ? composed(std::move(*all), original, options.scale) : std::move(original);
-  }
-  return all;
+  Composition all(options.scale);
+  for (const auto& layer : layers_)
+    if (layer->source() && (layer->visible() || !has_layers(scene_)))
+      all.add(layer->original(frame.options, frame.top));
+  return all.empty() ? std::nullopt : std::optional(all.result());
 }
 
 RasterResult PictureMaker::picture(const PictureOptions& options) {
@@ -239,31 +236,24 @@ RasterResult PictureMaker::picture(const PictureOptions& options) {
     return layers_[layer]->picture(frame.options, frame.top, placement(layer, options.time));
   };
   if (options.view != View::image) return drawn(scene_.edited);
-  std::optional<RasterResult> result;
-  if (scene_.background.fill == Background::Fill::original) result = originals(options);
-  const auto add = [&](RasterResult over, const LayerInk& ink) {
-    if (result) {
-      result = composed(std::move(*result), over, options.scale, ink);
-    } else {
-      fade(over.image, ink);
-      result = std::move(over);
-    }
-  };
-  for (size_t i = 0; i < layers_.size(); ++i) {
-    if (clip_base(scene_, i) || (has_layers(scene_) && !layers_[i]->visible())) continue;
-    RasterResult base = drawn(i);
-    for (size_t k = i + 1; k < layers_.size() && clip_base(scene_, k) == i; ++k)
-      if (layers_[k]->visible())
-        base = composed(std::move(base), drawn(k), options.scale, layers_[k]->ink());
-    LayerInk ink = layers_[i]->ink();
-    ink.clipped = false;  // the lowest layer has nothing to be clipped to
-    add(std::move(base), ink);
-  }
-  if (!result) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
-  if (options.crops_to_filled) *result = cropped_to_filled(std::move(*result), options.scale);
+  Composition all(options.scale);
+  if (scene_.background.fill == Background::Fill::original)
+    if (auto original = originals(options)) all.add(std::move(*original));
+  for (size_t i = 0; i < layers_.size(); ++i)
+    if (draws(i)) all.add(drawn(i), ink_of(scene_, i));
+  if (all.empty())
+    throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
+  RasterResult result = all.result();
+  if (options.crops_to_filled) result = cropped_to_filled(std::move(result), options.scale);
   if (scene_.background.fill == Background::Fill::color)
-    composite_onto_color(result->image, scene_.background.color);
-  return std::move(*result);
+    composite_onto_color(result.image, scene_.background.color);
+  return result;
+}
+
+bool PictureMaker::draws(size_t layer) const {
+  if (!has_layers(scene_)) return true;
+  const std::optional<size_t> base = clip_base(scene_, layer);
+  return layers_[layer]->visible() && (!base || layers_[*base]->visible());
 }
 
 Similarity PictureMaker::placement(size_t layer, const std::optional<double>& time) {

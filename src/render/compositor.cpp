@@ -11,14 +11,14 @@ namespace holomorph {
 Compositor::Compositor() : program_(composite_program()) {
   glGenVertexArrays(1, &array_);
   glGenRenderbuffers(1, &stencil_);
-  for (Target* target : {&under_, &over_, &result_, &below_group_}) {
+  for (Target* target : {&under_, &base_, &over_, &result_}) {
     glGenFramebuffers(1, &target->framebuffer);
     glGenTextures(1, &target->texture);
   }
 }
 
 Compositor::~Compositor() {
-  for (Target* target : {&under_, &over_, &result_, &below_group_}) {
+  for (Target* target : {&under_, &base_, &over_, &result_}) {
     glDeleteFramebuffers(1, &target->framebuffer);
     glDeleteTextures(1, &target->texture);
   }
@@ -29,7 +29,7 @@ Compositor::~Compositor() {
 void Compositor::resize(int width, int height) {
   glBindRenderbuffer(GL_RENDERBUFFER, stencil_);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
-  for (Target* target : {&under_, &over_, &result_, &below_group_}) {
+  for (Target* target : {&under_, &base_, &over_, &result_}) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target->texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
@@ -52,6 +52,7 @@ void Compositor::resize(int width, int height) {
 void Compositor::begin(int width, int height) {
   if (width != width_ || height != height_) resize(width, height);
   clear(under_);
+  base_ink_.reset();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
@@ -66,7 +67,8 @@ void Compositor::begin_layer() {
   clear(over_);
 }
 
-void Compositor::combine(const Target& into, const Ink& ink) {
+void Compositor::combine(const Target& into, const Target& under, const Target& over,
+                         const Ink& ink) {
   glBindFramebuffer(GL_FRAMEBUFFER, into.framebuffer);
   glUseProgram(program_.id());
   const auto bind = [&](GLenum unit, const char* name, unsigned texture) {
@@ -74,8 +76,8 @@ void Compositor::combine(const Target& into, const Ink& ink) {
     glBindTexture(GL_TEXTURE_2D, texture);
     glUniform1i(program_.at(name), static_cast<GLint>(unit));
   };
-  bind(1, "over_layer", over_.texture);
-  bind(0, "under_layers", under_.texture);
+  bind(1, "over_layer", over.texture);
+  bind(0, "under_layers", under.texture);
   glUniform1i(program_.at("blending"), ink.blending);
   glUniform1f(program_.at("opacity"), static_cast<float>(ink.opacity));
   glUniform1i(program_.at("clipped"), ink.clipped);
@@ -86,34 +88,36 @@ void Compositor::combine(const Target& into, const Ink& ink) {
   glUseProgram(0);
 }
 
-void Compositor::end_layer(const Ink& ink) {
+void Compositor::blend(Target& under, const Target& over, const Ink& ink) {
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
-  combine(result_, ink);
-  std::swap(under_, result_);
+  combine(result_, under, over, ink);
+  std::swap(under, result_);
   glEnable(GL_BLEND);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Compositor::begin_group() {
-  std::swap(under_, below_group_);
-  clear(under_);
+void Compositor::end_base() {
+  if (base_ink_) blend(under_, base_, *base_ink_);
+  base_ink_.reset();
+}
+
+void Compositor::end_layer(const Ink& ink) {
+  if (ink.clipped) return blend(base_, over_, ink);
+  end_base();
+  std::swap(base_, over_);
+  base_ink_ = ink;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Compositor::end_group(const Ink& ink) {
-  std::swap(over_, under_);
-  std::swap(under_, below_group_);
-  end_layer(ink);
-}
-
 void Compositor::finish(int left, int bottom, int width, int height) {
+  end_base();
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glEnable(GL_SCISSOR_TEST);
   glScissor(left, bottom, width, height);
-  combine({0, 0}, {.blending = -1});
+  combine({0, 0}, under_, under_, {.blending = -1});
   glDisable(GL_SCISSOR_TEST);
 }
 

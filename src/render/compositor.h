@@ -1,6 +1,8 @@
 // Combines layers with opacities and blending modes, away from the window.
 #pragma once
 
+#include <optional>
+
 #include "render/program.h"
 
 namespace holomorph {
@@ -9,12 +11,13 @@ namespace holomorph {
 struct Ink {
   int blending = 0;  ///< the number of the mode; see shaders/composite.frag
   double opacity = 1;
-  bool clipped = false;  ///< changes the colors below, but not their alpha
+  bool clipped =
+      false;  ///< changes the colors of the last layer that is not clipped, not its alpha
 };
 
 /// Layers are drawn one by one into a texture of the window's size, and combined. Needs a current
 /// OpenGL context. Call begin(), then begin_layer() and end_layer() for each layer from bottom to
-/// top, then finish(). Layers may be put into groups.
+/// top, then finish().
 class Compositor {
  public:
   Compositor();
@@ -27,12 +30,8 @@ class Compositor {
   void begin(int width, int height);
   /// Directs drawing into an empty, transparent layer.
   void begin_layer();
-  /// Combines the layer with those below it.
+  /// Adds the layer to those below it. The first one must not be clipped.
   void end_layer(const Ink& ink);
-  /// Starts a group of layers that are combined with each other first. Groups cannot be nested.
-  void begin_group();
-  /// Combines the group, as one layer, with what is below it.
-  void end_group(const Ink& ink);
   /// Draws the result over the window's content, within this rectangle in framebuffer px with its
   /// origin at the lower left.
   void finish(int left, int bottom, int width, int height);
@@ -43,10 +42,14 @@ class Compositor {
   };
   void resize(int width, int height);
   static void clear(const Target& target);
-  void combine(const Target& into, const Ink& ink);
+  void blend(Target& under, const Target& over, const Ink& ink);
+  void combine(const Target& into, const Target& under, const Target& over, const Ink& ink);
+  /// Combines the last layer that is not clipped, with those clipped to it, with what is below it.
+  void end_base();
 
   Program program_;
-  Target under_, over_, result_, below_group_;
+  Target under_, base_, over_, result_;
+  std::optional<Ink> base_ink_;  ///< none: nothing has been drawn into base_
   unsigned array_ = 0, stencil_ = 0;
   int width_ = 0, height_ = 0;
 };

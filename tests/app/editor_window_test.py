@@ -119,6 +119,60 @@ class EditorWindowTest(WindowCase):
                         difference = numpy.abs(shot[py, px] - exported[200 - y, x]).max()
                         self.assertLessEqual(difference, 1, (mode, opacity, colors, x, shot[py, px], exported[200 - y, x]))
 
+    def test_clipped_layers_look_like_the_export(self):
+        rng = numpy.random.default_rng()
+        seed = int(rng.integers(1 << 30))
+        print("clipped layers: seed", seed)
+        rng = numpy.random.default_rng(seed)
+        colors = [tuple(int(c) for c in rng.integers(0, 256, 3)) for _ in range(4)]
+        squares = [(0, 300), (40, 160), (90, 280), (120, 260)]  # left and right edges
+        layers = []
+        for i, (left, right) in enumerate(squares):
+            picture = Image.new("RGBA", (300, 200))
+            picture.paste(colors[i] + (255,), (left, 0, right, 200))
+            picture.save(os.path.join(self.work, f"{i}.png"))
+            layers.append({"image": {"file": f"{i}.png"}, "clipped": i in (2, 3), "opacity": [1, 0.8, 1, 0.6][i],
+                           "blending": ["normal", "screen", "normal", "multiply"][i],
+                           "cage": {"rest": []}})
+        scene, out = os.path.join(self.work, "clipped.json"), os.path.join(self.work, "clipped.png")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 2, "layers": layers}, file)
+        subprocess.run([PROGRAM, "render", scene, "--out", out, "--force"], check=True, capture_output=True)
+        exported = numpy.asarray(Image.open(out).convert("RGB")).astype(int)
+        self.assertEqual(exported[100, 200].tolist(), list(colors[0]))  # beside the base
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["layers"] == 4 and s["pictured"], "the scene")
+            editor.wait(lambda s: not s["moving"], "an interface at rest")
+            time.sleep(0.5)
+            shot = self.screenshot(editor, "clipped")
+            for x in (20, 60, 105, 140, 200, 290):
+                px, py = editor.pixel(x, 100)
+                difference = numpy.abs(shot[py, px] - exported[100, x]).max()
+                self.assertLessEqual(difference, 1, (seed, x, shot[py, px], exported[100, x]))
+            # The panel releases the layer, and the keys clip it again.
+            editor.press_item("Clip")
+            editor.wait(lambda s: s["step"] == 1, "a released layer")
+            editor.key("ctrl+alt+g")
+            editor.wait(lambda s: s["step"] == 2, "a clipped layer")
+            editor.press_item("Clip")
+            path = os.path.join(self.work, "released.json")
+            self.save_as(editor, path)
+        self.assertEqual([layer.get("clipped", False) for layer in load(path)["layers"]], [False, False, True, False])
+
+    def test_layers_are_exported_from_the_dialog(self):
+        scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
+        for kind in ("psd", "ora"):
+            out = os.path.join(self.work, "layers." + kind)
+            with Editor(PROGRAM, [scene]) as editor:
+                editor.wait(lambda s: s["cage_points"] == 4, "the scene")
+                self.ask(editor, "ctrl+e")
+                editor.key("ctrl+a")
+                editor.type(out)
+                editor.key("Return")
+                editor.wait(lambda s: os.path.exists(out) and not s["exporting"], "the exported layers")
+            with open(out, "rb") as file:
+                self.assertTrue(file.read(8).startswith(b"8BPS" if kind == "psd" else b"PK"))
+
     def test_opacity_and_blending_are_chosen_and_saved(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         with Editor(PROGRAM, [scene]) as editor:

@@ -160,19 +160,8 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     }
   }
   const std::vector<OnionSkin> skins = workspace.onion_skins();
-  const auto number_of = [&](size_t i) { return layer_index(scene, drawn[i]->id); };
-  const auto base_of = [&](size_t i) {
-    return i < drawn.size() ? clip_base(scene, number_of(i)) : std::nullopt;
-  };
-  std::optional<size_t> group;  // the layer to which others are clipped
-  for (size_t i = 0; i < drawn.size(); ++i) {
-    const Layer* layer = drawn[i];
-    const size_t number = number_of(i);
-    const bool starts_group = base_of(i + 1) == number;
-    if (starts_group) {
-      compositor_->begin_group();
-      group = number;
-    }
+  for (const Layer* layer : drawn) {
+    const size_t number = layer_index(scene, layer->id);
     RenderFrame drawing = frame;
     if (!original) set_view(drawing, workspace.layer_view(number), at);
     if (original || (layer == &edited && workspace.at_rest()))
@@ -182,9 +171,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
       for (const OnionSkin& skin : skins)
         drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
     }
-    draw(*layer, std::move(drawing), starts_group ? Ink{} : ink_of(scene, number));
-    if (group && base_of(i + 1) != group)
-      compositor_->end_group(ink_of(scene, *std::exchange(group, std::nullopt)));
+    draw(*layer, std::move(drawing), ink_of(scene, number));
   }
   if (combines) {
     const auto px = [](double value) { return static_cast<int>(value); };

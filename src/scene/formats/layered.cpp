@@ -26,6 +26,23 @@ Image decode_layer(const std::string& bytes, const std::string& entry, const std
   return decode_ora_layer(bytes, entry, name, pixels);
 }
 
+DrawnLayer background_layer(const LayeredPicture& picture) {
+  DrawnLayer layer;
+  layer.name = "Background";
+  layer.image = Image(picture.merged.width, picture.merged.height);
+  for (size_t i = 0; i < layer.image.pixels.size(); i += 4) {
+    std::ranges::copy(*picture.background, &layer.image.pixels[i]);
+    layer.image.pixels[i + 3] = 255;
+  }
+  return layer;
+}
+
+bool needs_group(const LayeredPicture& picture) {
+  return picture.background && std::ranges::any_of(picture.layers, [](const DrawnLayer& layer) {
+           return layer.blending != Blending::normal;
+         });
+}
+
 const std::vector<LayeredFormat>& layered_formats() {
   static const std::vector<LayeredFormat> all{{"Photoshop file with layers", ".psd", encode_psd},
                                               {"OpenRaster file with layers", ".ora", encode_ora}};

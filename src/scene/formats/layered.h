@@ -48,7 +48,14 @@ struct DrawnLayer {
 struct LayeredPicture {
   std::vector<DrawnLayer> layers;
   Image merged;
+  /// A color below the layers, with which their blending modes do not mix. Files that need it have
+  /// it as their lowest layer, and the others in a group.
+  std::optional<std::array<std::uint8_t, 3>> background = {};
 };
+/// The layer of the background's color.
+DrawnLayer background_layer(const LayeredPicture& picture);
+/// Whether the layers must be in a group so that they do not mix with the background.
+bool needs_group(const LayeredPicture& picture);
 
 /// A file format with layers.
 struct LayeredFormat {

@@ -142,12 +142,9 @@ std::string encode_ora(const LayeredPicture& picture) {
   pugi::xml_node stack = root.append_child("stack");
   std::vector<std::pair<std::string, std::string>> files;
   const DrawnLayer* base = nullptr;
-  for (const DrawnLayer& each : picture.layers) {
-    const bool is_cut = each.clipped && base;
-    if (!is_cut) base = &each;
-    const DrawnLayer layer = is_cut ? cut_to(*base, each) : each;
+  const auto add = [&](pugi::xml_node& group, const DrawnLayer& layer) {
     const std::string file = "data/layer" + std::to_string(files.size()) + ".png";
-    pugi::xml_node node = stack.prepend_child("layer");  // the file lists layers from the top
+    pugi::xml_node node = group.prepend_child("layer");  // the file lists layers from the top
     node.append_attribute("name") = layer.name.c_str();
     node.append_attribute("src") = file.c_str();
     node.append_attribute("x") = layer.left;
@@ -156,6 +153,17 @@ std::string encode_ora(const LayeredPicture& picture) {
     node.append_attribute("visibility") = layer.visible ? "visible" : "hidden";
     node.append_attribute("composite-op") = mode_of(layer.blending);
     files.emplace_back(file, encode_png(layer.image));
+  };
+  if (picture.background) add(stack, background_layer(picture));
+  if (needs_group(picture)) {
+    stack = stack.prepend_child("stack");
+    stack.append_attribute("name") = "Layers";
+    stack.append_attribute("isolation") = "isolate";
+  }
+  for (const DrawnLayer& layer : picture.layers) {
+    const bool is_cut = layer.clipped && base;
+    if (!is_cut) base = &layer;
+    add(stack, is_cut ? cut_to(*base, layer) : layer);
   }
   std::ostringstream text;
   document.save(text);

@@ -15,8 +15,8 @@
 namespace holomorph {
 namespace {
 
-constexpr size_t kDeepestGroup = 50;  ///< levels of groups
-constexpr int kFarthest = 1 << 24;    ///< largest coordinate of a layer
+constexpr size_t kDeepestPsdGroup = 50;  ///< levels of groups
+constexpr int kFarthestEdge = 1 << 24;   ///< largest coordinate of a layer
 
 struct BlendingKey {
   const char* key;
@@ -114,7 +114,7 @@ Bounds read_bounds(const FileBytes& file, size_t place) {
   const Bounds bounds{file.big_signed(place), file.big_signed(place + 4),
                       file.big_signed(place + 8), file.big_signed(place + 12)};
   for (const int x : {bounds.top, bounds.left, bounds.bottom, bounds.right})
-    if (std::abs(static_cast<long>(x)) > kFarthest) file.damaged("a layer lies too far away");
+    if (std::abs(static_cast<long>(x)) > kFarthestEdge) file.damaged("a layer lies too far away");
   return bounds;
 }
 
@@ -257,7 +257,7 @@ std::vector<Node> tree_of(const Psd& psd, const FileBytes& file) {
   for (const Record& record : psd.records) {
     if (record.section == Section::divider) {
       open.emplace_back();
-      if (open.size() > kDeepestGroup) file.damaged("its groups are nested too deeply");
+      if (open.size() > kDeepestPsdGroup) file.damaged("its groups are nested too deeply");
       continue;
     }
     Node node{&record, {}};

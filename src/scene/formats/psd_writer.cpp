@@ -134,8 +134,12 @@ const char* key_of(Blending blending) {
   return "norm";
 }
 
+/// What a record stands for; the numbers are those of the block lsct.
+enum class Section { layer = 0, group = 1, divider = 3 };
+
 /// The record of a layer whose channels have these lengths in the file.
-std::string record_of(const DrawnLayer& layer, size_t number, const std::vector<size_t>& lengths) {
+std::string record_of(const DrawnLayer& layer, size_t number, const std::vector<size_t>& lengths,
+                      Section section) {
   std::string bytes;
   for (const int x :
        {layer.top, layer.left, layer.top + layer.image.height, layer.left + layer.image.width})
@@ -161,24 +165,38 @@ std::string record_of(const DrawnLayer& layer, size_t number, const std::vector<
   std::string id;
   put(id, number + 1, 4);
   put_block(extra, "lyid", id);
+  if (section != Section::layer) {
+    std::string kind;
+    put(kind, static_cast<size_t>(section), 4);
+    put_block(extra, "lsct", kind + "8BIMnorm");
+  }
   put_section(bytes, extra);
   return bytes;
 }
 
-std::string layer_section(const std::vector<DrawnLayer>& layers) {
+std::string layer_section(const LayeredPicture& picture) {
   std::string records, channels;
-  for (size_t i = 0; i < layers.size(); ++i) {
+  int count = 0;
+  const auto add = [&](const DrawnLayer& layer, Section section = Section::layer) {
     std::vector<size_t> lengths;
     for (const int channel : kChannels) {
-      const std::string data = channel_data(layers[i].image, channel);
+      const std::string data = channel_data(layer.image, channel);
       lengths.push_back(data.size());
       channels += data;
     }
-    records += record_of(layers[i], i, lengths);
-  }
+    records += record_of(layer, static_cast<size_t>(count++), lengths, section);
+  };
+  const bool groups = needs_group(picture);
+  DrawnLayer divider, group;
+  divider.name = "</Layer group>";
+  group.name = "Layers";
+  if (picture.background) add(background_layer(picture));
+  if (groups) add(divider, Section::divider);
+  for (const DrawnLayer& layer : picture.layers) add(layer);
+  if (groups) add(group, Section::group);
   std::string info;
   // A negative count says that the merged picture has an alpha channel.
-  put_signed(info, -static_cast<int>(layers.size()), 2);
+  put_signed(info, -count, 2);
   info += records + channels;
   if (info.size() % 2 == 1) info += '\0';
   std::string section;
@@ -220,7 +238,7 @@ std::string encode_psd(const LayeredPicture& picture) {
   put(bytes, kRgb, 2);
   put(bytes, 0, 4);  // no color table
   put(bytes, 0, 4);  // no resources
-  put_section(bytes, layer_section(picture.layers));
+  put_section(bytes, layer_section(picture));
   return bytes + merged_data(picture.merged);
 }
 
