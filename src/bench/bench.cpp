@@ -598,6 +598,8 @@ const Entry kEntries[] = {
      [](int runs) { return export_ms(4000, 32, runs, 1); }},
     {"export: 4000 x 4000, 128-vertex cage, pose to pixels, two cores", "ms", 100, 9,
      [](int runs) { return export_ms(4000, 128, runs, 2); }},
+    {"open: a PSD file of 200 MB with four layers", "ms", 3000, 1,
+     [](int) { return open_psd_ms(); }},
     {"film: 1000 x 1000, puppet, a frame of 100 before encoding, with preparation", "ms", 40, 1,
      [](int) { return film_frame_ms("puppet"); }},
     {"film: the same, cage", "ms", 40, 1, [](int) { return film_frame_ms("cage"); }},

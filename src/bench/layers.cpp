@@ -1,6 +1,7 @@
 // Benchmarks of scenes with many layers and keyframes.
 #include <algorithm>
 #include <chrono>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -8,10 +9,13 @@
 #include "bench/wavy.h"
 #include "core/clock.h"
 #include "core/maps/deformer.h"
+#include "scene/formats/layered.h"
 #include "scene/keyframes.h"
 #include "scene/layer_maps.h"
+#include "scene/loading.h"
 #include "scene/posed_map.h"
 #include "system/memory.h"
+#include "system/new_file.h"
 
 namespace holomorph::bench {
 namespace {
@@ -120,6 +124,23 @@ double drag_page_faults() {
     most = std::max(most, static_cast<double>(page_faults() - before) / kFrames);
   }
   return most;
+}
+
+double open_psd_ms() {
+  constexpr int kSide = 3560;  // four layers of noise have 203 MB
+  constexpr int kCount = 4;
+  LayeredPicture picture{{}, Image(kSide, kSide)};
+  std::mt19937 random(1);
+  DrawnLayer layer;
+  layer.image = Image(kSide, kSide);
+  for (std::uint8_t& value : layer.image.pixels) value = static_cast<std::uint8_t>(random());
+  picture.layers.assign(kCount, layer);
+  const NewFolder folder(std::filesystem::temp_directory_path() / "bench");
+  const Path file = folder.path() / "noise.psd";
+  write_file(file, layered_format_of(file)->encode(picture));
+  const double start = now_ms();
+  const LoadedScene loaded = scene_of_image(file);
+  return loaded.scene.layers.size() == kCount ? now_ms() - start : 0;
 }
 
 }  // namespace holomorph::bench
