@@ -2,6 +2,8 @@
 import os
 import re
 import subprocess
+import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -17,16 +19,16 @@ def version():
 class BuildWithCMake(build_ext):
     def run(self):
         build = os.path.abspath(os.environ.get("HOLOMORPH_BUILD", os.path.join(HERE, "build/python")))
+        options = ["-DHOLOMORPH_PYTHON=ON", "-DPYTHON_EXECUTABLE=" + sys.executable]
         if not os.path.exists(os.path.join(build, "build.ninja")):
-            subprocess.check_call(["cmake", "-S", HERE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                                   "-DHOLOMORPH_PYTHON=ON", "-DHOLOMORPH_TESTS=OFF"])
+            options += ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DHOLOMORPH_TESTS=OFF"]
+        subprocess.check_call(["cmake", "-S", HERE, "-B", build, *options])
         subprocess.check_call(["cmake", "--build", build, "--target", "holomorph_python"])
         for extension in self.extensions:
             target = self.get_ext_fullpath(extension.name)
             os.makedirs(os.path.dirname(target), exist_ok=True)
             folder = os.path.join(build, "python/holomorph")
-            module, = (name for name in os.listdir(folder) if re.fullmatch(r"_core\..*so", name))
-            self.copy_file(os.path.join(folder, module), target)
+            self.copy_file(os.path.join(folder, "_core" + sysconfig.get_config_var("EXT_SUFFIX")), target)
 
 
 setup(

@@ -2,12 +2,12 @@
 _holomorph() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=
   case $before in
-    --format) words="obj svg npy png stmap unwarp-map unwarp textured webp gif apng mp4 webm" ;;
+    --format) words="obj svg npy png stmap unwarp-map unwarp textured glb godot spine mdd pc2 psd ora webp gif apng mp4 webm" ;;
     --view) words="image angle area stretch checker" ;;
     --flattening) words="lscm circle" ;;
     --frames) words="all" ;;
     --engine) words="slurm" ;;
-    --time | --scale | --overscan | --order | --detail | --vertices | --margin | --filter | --rect | --chunk | --rounds | --max-*) return ;;
+    --time | --scale | --overscan | --rate | --order | --detail | --vertices | --margin | --filter | --rect | --chunk | --rounds | --max-*) return ;;
   esac
   if [ -n "$words" ]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")

@@ -74,7 +74,7 @@ certificate = photograph.certificate()
 print("proved" if certificate.proved else "not proved", certificate.shear, certificate.smallest, certificate.largest)
 plt.imsave(os.path.join(folder, "photograph.png"), photograph.render())
 
-# %% The distortion: the map's derivatives give how much it stretches, and in how far it is not conformal.
+# %% The distortion: the map's derivatives give how much it stretches, and how far it is from conformal.
 fz, fzbar = scene.derivatives(x + 1j * y)
 figure, axes = plt.subplots(figsize=(7, 4))
 stretch = axes.pcolormesh(bent.real, bent.imag, np.log2(abs(fz) + abs(fzbar)), cmap="RdBu", vmin=-1, vmax=1,

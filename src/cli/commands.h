@@ -68,14 +68,20 @@ struct NewCommand {
   std::optional<Path> outline;  ///< SVG file, picture or surface
   std::string flattening = "lscm";
 };
+/// Rectangles are made smaller by this much on each side, so that rounding adds no pixel.
+inline constexpr double kRectangleRounding = 1e-6;
+
 struct ExportCommand : SceneCommand {
   Path out;
   std::string format;
   std::optional<double> scale = {};
   bool crop = false;
-  std::optional<int> overscan = {};  ///< of ST-maps, in their pixels
-  bool half = false;                 ///< half floats in OpenEXR files
-  std::optional<Path> drawn = {};    ///< numbered pictures to make a film of
+  std::optional<int> overscan = {};     ///< of ST-maps, in their pixels
+  bool half = false;                    ///< half floats in OpenEXR files
+  std::optional<size_t> vertices = {};  ///< of the mesh of each layer
+  std::optional<double> rate = {};      ///< frames of moving meshes per second
+  bool keys = false;                    ///< frames of moving meshes only at keyframes
+  std::optional<Path> drawn = {};       ///< numbered pictures to make a film of
   std::optional<Box> rectangle = {};
   bool force = false;
   Moments moments = {};

@@ -1,16 +1,18 @@
 // The command farm: writes a script for a queue of jobs, and submits it.
 //
-// The script has three parts, and each time it is run, HOLOMORPH_PART says which one: `plan` finds
-// the chunks with missing frames, submits itself as an array of jobs that `draw` them, and as
+// The script has two parts, and its first argument says which one runs: `plan`, the usual one,
+// finds the chunks with missing frames, submits itself as an array of jobs that `draw` them, and as
 // another `plan` after these. When nothing is missing, `plan` makes the film. A drawn frame appears
 // as a whole or not at all, so whatever ends a job, its frames are either there or missing.
 #include <cstdio>
 #include <map>
 
 #include "cli/commands.h"
+#include "cli/formats.h"
 #include "cli/streams.h"
 #include "core/error.h"
 #include "film/film_writer.h"
+#include "raster/st_map.h"
 #include "scene/formats/export.h"
 #include "scene/formats/image.h"
 #include "system/new_file.h"
@@ -40,8 +42,9 @@ std::string drawing_options(const FarmCommand& command) {
   if (command.crop) options += " --crop";
   if (command.outside) options += " --allow-outside";
   if (const auto& box = command.rectangle)
-    options += csv_line(" --rect %.17g,%.17g,%.17g,%.17g", box->left, box->bottom, box->width(),
-                        box->height());
+    options += csv_line(" --rect %.10g,%.10g,%.10g,%.10g", box->left - kRectangleRounding,
+                        box->bottom - kRectangleRounding, box->width() + 2 * kRectangleRounding,
+                        box->height() + 2 * kRectangleRounding);
   return options;
 }
 
@@ -72,13 +75,17 @@ missing_chunks() {
   done | uniq | paste -sd,
 }
 
-if [ "${HOLOMORPH_PART:-plan}" = draw ]; then
+if [ "${1:-plan}" = draw ]; then
   from=$((first + SLURM_ARRAY_TASK_ID * chunk)) to=$((from + chunk - 1))
   exec "$holomorph" render "$scene" --out "$frames" --missing@drawing@ \
     --frames "$from..$((to < last ? to : last))"
 fi
 
-round=${HOLOMORPH_ROUND:-1}
+if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then
+  echo "holomorph: submit $script without --array" >&2
+  exit 1
+fi
+round=${2:-1}
 missing=$(missing_chunks)
 if [ -z "$missing" ]; then
   @film@
@@ -87,8 +94,8 @@ elif [ "$round" -gt "$rounds" ]; then
   echo "holomorph: after $rounds rounds, frames are still missing in chunks $missing" >&2
   exit 1
 else
-  drawing=$(HOLOMORPH_PART=draw sbatch --parsable --array="$missing" "$script")
-  HOLOMORPH_ROUND=$((round + 1)) sbatch --parsable --dependency="afterany:${drawing%%;*}" "$script"
+  drawing=$(sbatch --parsable --array="$missing" "$script" draw)
+  sbatch --parsable --dependency="afterany:${drawing%%;*}" "$script" plan $((round + 1))
 fi
 )sh";
 
@@ -96,7 +103,7 @@ fi
 std::string film_command(const FarmCommand& command) {
   if (!command.film) return ":  # no film was asked for";
   return "\"$holomorph\" export \"$scene\" --format " +
-         command.film->extension().string().substr(1) +
+         film_format_of(*command.film).extension.substr(1) +
          (command.outside ? " --allow-outside" : "") +
          " --drawn \"$frames\" --frames \"$first..$last\" --out " + quoted(*command.film);
 }
@@ -138,10 +145,13 @@ void check_farm(const FarmCommand& command) {
     if (is_standard(path))
       throw Error(ErrorKind::bad_input, "other machines need files; name them instead of -");
   picture_format_of(command.out);
-  if (command.film) film_format_of(*command.film);
-  // A log with a line break would end a line of the script, and Slurm replaces percent signs.
-  if (script_path(command).string().find_first_of("\n%") != std::string::npos)
-    throw Error(ErrorKind::bad_input, "--out: Slurm cannot use a name with % or a line break");
+  if (command.film && !export_format_named(film_format_of(*command.film).extension.substr(1)).film)
+    throw Error(ErrorKind::bad_input,
+                command.film->string() + ": a film of pictures needs another format, such as .mp4");
+  // The log's name is in quotes in a line of the script, and Slurm replaces percent signs.
+  if (script_path(command).string().find_first_of("\n%\"\\") != std::string::npos)
+    throw Error(ErrorKind::bad_input,
+                "--out: Slurm cannot use a name with %, a quote, a backslash or a line break");
 }
 
 }  // namespace
@@ -151,6 +161,8 @@ void run(const FarmCommand& command) {
   const LoadedScene loaded = read_scene(command);
   require_keyframes(loaded.scene, command.scene);
   const FrameRange range = frames_named(command.moments.frames.value_or("all"), loaded.scene);
+  if (const Image* picture = loaded.image())
+    check_map_size(command.scale, picture->width, picture->height, 0);
   const Path script = script_path(command);
   check_out(script, false, command.scene, loaded);
   if (command.film) check_out(*command.film, false, command.scene, loaded);

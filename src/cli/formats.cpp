@@ -41,6 +41,8 @@ std::string options_of(const ExportFormat& format) {
   if (format.crop) options.insert(options.end(), {"--crop", "--rect"});
   if (format.time) options.push_back("--time");
   if (format.frames) options.push_back("--frames");
+  if (format.meshes) options.push_back("--vertices");
+  if (format.all_layers) options.insert(options.end(), {"--rate", "--keys"});
   if (format.st_map) options.insert(options.end(), {"--overscan", "--half"});
   return joined(options, " ");
 }
@@ -89,7 +91,12 @@ std::vector<Row> rows() {
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> all = [] {
     std::vector<ExportFormat> formats{
-        {.id = "obj", .extensions = {".obj"}, .writes = "the bent mesh", .time = true},
+        {.id = "obj",
+         .extensions = {".obj"},
+         .writes = "the bent mesh",
+         .time = true,
+         .frames = true,
+         .meshes = true},
         {.id = "svg", .extensions = {".svg"}, .writes = "the cage", .time = true},
         {.id = "npy", .extensions = {".npy"}, .writes = "the vertices of the mesh", .time = true},
         {.id = "png",
@@ -122,6 +129,21 @@ const std::vector<ExportFormat>& export_formats() {
          .extensions = {".obj"},
          .writes = "the surface with the picture as its texture",
          .scale = true}};
+    const auto add_meshes = [&](const char* id, const char* extension, const char* writes,
+                                bool all_layers) {
+      formats.push_back({.id = id,
+                         .extensions = {extension},
+                         .writes = writes,
+                         .time = true,
+                         .frames = true,
+                         .meshes = true,
+                         .all_layers = all_layers});
+    };
+    add_meshes("glb", ".glb", "the moving layers as glTF", true);
+    add_meshes("godot", ".tscn", "the moving layers as a scene of Godot 3", true);
+    add_meshes("spine", ".json", "the moving layers as a Spine skeleton", true);
+    add_meshes("mdd", ".mdd", "the moving vertices of the mesh", false);
+    add_meshes("pc2", ".pc2", "the moving vertices of the mesh", false);
     for (const LayeredFormat& layered : layered_formats())
       formats.push_back({.id = layered.extension.substr(1),
                          .extensions = {layered.extension},

@@ -12,6 +12,8 @@ struct ExportFormat {
   std::vector<std::string> extensions;  ///< with the dot
   std::string writes;                   ///< what is written, such as "a film"
   bool scale = false, crop = false, time = false, frames = false, st_map = false, film = false;
+  bool meshes = false;      ///< --vertices sets how many vertices a layer has
+  bool all_layers = false;  ///< meshes of all layers, for --rate and --keys
 };
 /// All formats, films last.
 const std::vector<ExportFormat>& export_formats();

@@ -114,9 +114,8 @@ void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* cr
                !(height > 0 && height < 1e6) || !(std::abs(x) < 1e8 && std::abs(y) < 1e8))
              throw CLI::ValidationError("--rect",
                                         "'" + text + "' is not a rectangle; give X,Y,WIDTH,HEIGHT");
-           constexpr double kRounding = 1e-6;  // rounding must not add a pixel
-           rectangle =
-               Box{x + kRounding, y + kRounding, x + width - kRounding, y + height - kRounding};
+           constexpr double kEdge = kRectangleRounding;
+           rectangle = Box{x + kEdge, y + kEdge, x + width - kEdge, y + height - kEdge};
          },
          "Show exactly X,Y,WIDTH,HEIGHT: lower left corner and size in the picture's pixels")
       ->excludes(crop);
@@ -265,13 +264,24 @@ void CommandLine::add_export(CLI::App& app) {
       "--half", exported.half,
       "Write half floats instead of single ones, for OpenEXR files; precise to half a pixel "
       "in a picture 2000 pixels wide");
+  sub->add_option("--vertices", exported.vertices,
+                  "Vertices of the mesh of each layer, by default all of them; for meshes")
+      ->check(CLI::Range(3, 1'000'000));
+  auto* rate =
+      sub->add_option("--rate", exported.rate,
+                      "Frames per second of moving meshes, by default the scene's; players "
+                      "interpolate between them; for glb, godot and spine")
+          ->check(CLI::Range(0.1, 1000.0));
+  sub->add_flag("--keys", exported.keys,
+                "Frames of moving meshes only at keyframes; for glb, godot and spine")
+      ->excludes(rate);
   sub->add_option("--drawn", exported.drawn,
                   "Make a film of frames that 'render --frames' has written with this --out");
   sub->add_option("--out", exported.out, "File to write")->required();
   add_rectangle(
       sub, exported.rectangle,
       sub->add_flag("--crop", exported.crop, "Crop to the picture's rectangle; for png and films"));
-  add_moments(sub, exported.moments, "; for png, ST-maps and films");
+  add_moments(sub, exported.moments, "; for png, ST-maps, meshes and films");
   add_force(sub, exported.force);
 }
 

@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/formats.h"
+#include "cli/meshes.h"
 #include "cli/progress.h"
 #include "cli/st_maps.h"
 #include "cli/streams.h"
@@ -104,6 +105,11 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
                : write_film(out, loaded.scene, loaded.image(), options, step, loaded.pictures);
   }
   if (is_standard(command.out)) write_standard_output(read_file(out));
+  if (command.drawn) {
+    std::fprintf(stderr, "%s: %d frames of %d x %d pixels\n", shown_output(command.out).c_str(),
+                 film->frames, film->width, film->height);
+    return;
+  }
   std::fprintf(
       stderr, "%s: %d frames of %s%s\n", shown_output(command.out).c_str(), film->frames,
       rectangle_text(film->width, film->height, film->corner).c_str(),
@@ -181,8 +187,15 @@ void check_options(const ExportCommand& command) {
     throw_unsupported("--overscan", "only stmap and unwarp-map extend beyond the picture");
   if (command.drawn && !format.film)
     throw_unsupported("--drawn", "only films are made of pictures");
+  if (command.drawn && (command.scale || command.crop || command.rectangle))
+    throw_unsupported("--scale, --crop or --rect", "the pictures of --drawn are drawn already");
   if (command.half && !format.st_map)
     throw_unsupported("--half", "only stmap and unwarp-map are written as OpenEXR");
+  if (command.vertices && !(format.meshes && (format.id != "obj" || command.moments.frames)))
+    throw_unsupported("--vertices", format.meshes ? "it needs --frames there"
+                                                  : "it is for exports of moving meshes");
+  if ((command.rate || command.keys) && !format.all_layers)
+    throw_unsupported(command.keys ? "--keys" : "--rate", "it is for glb, godot and spine");
   if (command.moments.frames && !format.frames)
     throw_unsupported("--frames", format.time ? "it shows a single moment; use --time"
                                               : "it shows the scene's own pose");
@@ -240,6 +253,8 @@ void run(const ExportCommand& command) {
   const LoadedScene loaded = read_scene(command);
   if (command.moments.any()) require_keyframes(loaded.scene, command.scene);
   const ExportFormat& known = export_format_named(format);
+  if (known.meshes && (known.id != "obj" || command.moments.frames))
+    return export_meshes(loaded, command);
   if (known.st_map) return export_st_maps(loaded, command);
   check_out(command.out, command.force, command.scene, loaded);
   if (format == "textured") return export_textured(loaded, command);

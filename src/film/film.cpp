@@ -96,7 +96,12 @@ std::optional<WrittenFilm> write_frames(const Path& out, const FilmShape& settin
           format.open(out, {film.width, film.height, settings.frames_per_second, settings.loops});
     }
     if (frame.image.width != film.width || frame.image.height != film.height)
-      throw Error(ErrorKind::bad_input, "the frames of a film need the same size");
+      throw Error(ErrorKind::bad_input,
+                  "frame " + std::to_string(i) + " of the film has " +
+                      std::to_string(frame.image.width) + " x " +
+                      std::to_string(frame.image.height) + " pixels, and the first one " +
+                      std::to_string(film.width) + " x " + std::to_string(film.height) +
+                      "; draw all of them again with the same options");
     writer->add(frame.image);
   }
   if (!progress(frames, frames)) return {};

@@ -1,7 +1,7 @@
 // The Python module: scenes, their maps and inverses, coordinates and pictures.
 //
 // Points are complex numbers. Results are NumPy arrays that own the memory of the library's
-// matrices, so nothing is copied. Long work runs without Python's lock, so that other threads of
+// matrices, so most are not copied. Long work runs without Python's lock, so that other threads of
 // Python run meanwhile.
 #include <pybind11/complex.h>
 #include <pybind11/numpy.h>
@@ -10,7 +10,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
 #include <mutex>
+#include <optional>
+#include <thread>
 
 #include "core/angles/hilbert.h"
 #include "core/cauchy/cauchy.h"
@@ -20,6 +26,7 @@
 #include "core/parallel.h"
 #include "raster/picture.h"
 #include "scene/budget.h"
+#include "scene/check_scene.h"
 #include "scene/formats/scene_json.h"
 #include "scene/keyframes.h"
 #include "scene/loading.h"
@@ -92,15 +99,34 @@ Cage cage_of(const PointArray& outer, const std::vector<PointArray>& holes, int 
   return cage;
 }
 
+/// A mutex that knows which thread holds it.
+struct TurnMutex {
+  std::mutex mutex;
+  std::atomic<std::thread::id> owner;
+};
+
 /// Lets one thread at a time work. A thread that waits for its turn, or works, does not hold
-/// Python's lock; otherwise, two threads could wait for each other.
+/// Python's lock; otherwise, two threads could wait for each other. Throws Error if the thread has
+/// its turn already, which happens in signal handlers that use the scene at work.
 class Turn {
  public:
-  explicit Turn(std::mutex& mutex) : lock_(mutex) {}
+  explicit Turn(TurnMutex& mutex) : mutex_(mutex) {
+    if (mutex.owner == std::this_thread::get_id())
+      throw Error(ErrorKind::bad_input,
+                  "the scene is at work; a signal handler cannot use it until that is done");
+    mutex.mutex.lock();
+    mutex.owner = std::this_thread::get_id();
+  }
+  ~Turn() {
+    mutex_.owner = std::thread::id();
+    mutex_.mutex.unlock();
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
 
  private:
   py::gil_scoped_release unlocked_;
-  std::lock_guard<std::mutex> lock_;
+  TurnMutex& mutex_;
 };
 
 /// What is proved about a map.
@@ -158,6 +184,7 @@ class PythonScene {
     Scene edited = scene_;
     edit(edited);
     const size_t layer = edited.edited;
+    check_scene(edited);
     edited = scene_from_json(json_of(edited), "scene");
     edited.edited = layer;
     scene_ = std::move(edited);
@@ -252,7 +279,7 @@ class PythonScene {
     return *timed_;
   }
 
-  mutable std::mutex mutex_;
+  mutable TurnMutex mutex_;
   Scene scene_;
   Pictures pictures_;
   std::string warning_;
@@ -345,11 +372,11 @@ struct type_caster<holomorph::PointArray> {
       return false;
     }
     const bool is_complex = given.dtype().kind() == 'c';
-    if (!is_complex && given.size() > 0 &&
-        (given.ndim() < 1 || given.shape(given.ndim() - 1) != 2 ||
-         std::string("fiu").find(given.dtype().kind()) == std::string::npos))
-      return false;
-    const ssize_t axes = given.size() > 0 && !is_complex ? given.ndim() - 1 : given.ndim();
+    const bool is_pairs = !is_complex && given.ndim() > 0 && given.shape(given.ndim() - 1) == 2 &&
+                          std::string("fiu").find(given.dtype().kind()) != std::string::npos;
+    const bool is_empty_list = given.ndim() == 1 && given.size() == 0;
+    if (!is_complex && !is_pairs && !is_empty_list) return false;
+    const ssize_t axes = given.ndim() - is_pairs;
     value.shape.assign(given.shape(), given.shape() + axes);
     const auto copy = [&](const auto* numbers, ssize_t count) {
       const auto* const first = reinterpret_cast<const std::complex<double>*>(numbers);
@@ -502,8 +529,11 @@ void add_content(py::class_<PythonScene>& scene) {
             int end = 0;
             if (name == "original")
               background.fill = Background::Fill::original;
-            else if (name.size() == 7 && std::sscanf(name.c_str(), "#%6x%n", &color, &end) == 1 &&
-                     end == 7)
+            else if (name.size() == 7 &&
+                     std::all_of(
+                         name.begin() + 1, name.end(),
+                         [](char c) { return std::isxdigit(static_cast<unsigned char>(c)); }) &&
+                     std::sscanf(name.c_str(), "#%6x%n", &color, &end) == 1 && end == 7)
               background = {
                   Background::Fill::color,
                   {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8),
@@ -653,7 +683,7 @@ void add_map(py::class_<PythonScene>& scene) {
             return array_of(std::move(topmost), points.shape);
           },
           py::arg("points"), py::arg("time") = std::nullopt,
-          "Which point of the picture comes to each point: the topmost one, or NaN.")
+          "The point of the picture that is mapped to each point: the topmost one, or NaN.")
       .def(
           "preimages",
           [](PythonScene& self, const PointArray& points, Time time) {
@@ -718,7 +748,8 @@ void add_map(py::class_<PythonScene>& scene) {
           py::arg("time") = std::nullopt, py::arg("scale") = 1.0, py::arg("crop") = false,
           py::arg("region") = std::nullopt, py::arg("view") = "image",
           "The picture of the whole scene: rows x columns x (red, green, blue, alpha), 8 bits. It "
-          "grows with what is bent, unless it is cropped to the picture's own rectangle or to a "
+          "is enlarged to contain the deformed picture, unless it is cropped to the picture's own "
+          "rectangle or to a "
           "region (left, bottom, right, top) of the plane.");
 }
 
@@ -741,12 +772,14 @@ PYBIND11_MODULE(_core, module) {
   add_content(scene);
   add_handles(scene);
   add_map(scene);
-  module.def("coordinates", &coordinates, py::arg("cage"), py::arg("points"),
-             py::arg("kind") = "cauchy", py::arg("order") = 0, py::arg("degree") = 1,
-             py::arg("holes") = py::list(),
-             "Coordinates of points in a cage: points x control points. The kinds are cauchy "
-             "(complex), mean_value and harmonic (real), and hilbert (complex, two per vertex). "
-             "Order 1 gives complex derivatives; cauchy has orders up to 12.");
+  module.def(
+      "coordinates", &coordinates, py::arg("cage"), py::arg("points"), py::arg("kind") = "cauchy",
+      py::arg("order") = 0, py::arg("degree") = 1, py::arg("holes") = py::list(),
+      "Coordinates of points in a cage: points x control points. The kinds are cauchy "
+      "(complex), mean_value and harmonic (real), and hilbert (complex, two per vertex). "
+      "Order 1 gives the complex derivatives, and for real coordinates h the numbers h_x - i h_y; "
+      "cauchy has orders up to 12. The control points are in the order of the cage, then of "
+      "the holes. Outside of the cage, hilbert coordinates have no meaning.");
   module.def("load", &PythonScene::load, py::arg("path"), py::arg("allow_outside") = false,
              "Reads a scene file and its pictures. Pictures outside of the scene's folder are read "
              "only if that is allowed.");
@@ -759,6 +792,6 @@ PYBIND11_MODULE(_core, module) {
       },
       "The ids of all methods.");
   module.def("set_limit", &set_limit, py::arg("name"), py::arg("value"),
-             "Raises a limit on what files may cost. set_limit(\"max-pixels\", 300) does what the "
+             "Sets a limit on what files may cost. set_limit(\"max-pixels\", 300) does what the "
              "program's option --max-pixels 300 does.");
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 #include "scene/layers.h"
@@ -102,15 +103,15 @@ void Composition::add(RasterResult picture, const LayerInk& ink) {
     if (!group_) group_ = layer_of(*base_);
     return blend(layer_of(picture), *group_, ink);
   }
-  if (base_) below_ = all();
+  if (base_) below_ = all(std::move(below_));
   group_.reset();
   base_ = std::move(picture);
   base_ink_ = ink;
 }
 
-Composition::Layer Composition::all() const {
+Composition::Layer Composition::all(std::optional<Layer> below) const {
   const Layer over = group_ ? *group_ : layer_of(*base_);
-  Layer under = below_ ? *below_ : Layer{0, 0, over.corner, {}};
+  Layer under = below ? std::move(*below) : Layer{0, 0, over.corner, {}};
   enlarge(under, over);
   blend(over, under, base_ink_);
   return under;
@@ -123,7 +124,7 @@ RasterResult Composition::result() const {
     fade(only.image, base_ink_);
     return only;
   }
-  const Layer layer = all();
+  const Layer layer = all(below_);
   RasterResult result{Image(layer.width, layer.height), layer.corner};
   for (size_t i = 0; i < layer.pixels.size(); ++i) {
     const Pixel& from = layer.pixels[i];

@@ -45,8 +45,8 @@ class Composition {
   static Layer layer_of(const RasterResult& picture);
   void blend(const Layer& over, Layer& under, const LayerInk& ink) const;
   void enlarge(Layer& under, const Layer& over) const;
-  /// What has been added so far, up to the base and what is clipped to it.
-  Layer all() const;
+  /// The base, with what is clipped to it, on what is below it.
+  Layer all(std::optional<Layer> below) const;
 
   double pixels_per_unit_;
   std::optional<Layer> below_;

@@ -4,13 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 
 namespace holomorph {
 namespace {
 
-Budget& current() {
-  static Budget budget;
-  return budget;
+struct Current {
+  std::mutex mutex;
+  Budget budget;
+};
+Current& current() {
+  static Current current;
+  return current;
 }
 
 /// The amount as text, rounded up to at least three digits.
@@ -23,12 +28,14 @@ std::string shown(double amount) {
 
 }  // namespace
 
-const Budget& budget() {
-  return current();
+Budget budget() {
+  const std::lock_guard lock(current().mutex);
+  return current().budget;
 }
 
 void set_budget(const Budget& budget) {
-  current() = budget;
+  const std::lock_guard lock(current().mutex);
+  current().budget = budget;
 }
 
 const std::vector<BudgetOption>& budget_options() {

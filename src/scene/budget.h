@@ -19,9 +19,8 @@ struct Budget {
   double frames = 100000;     ///< frames in one film
 };
 
-/// The current limits. Set them before reading any file. Access is not synchronized between
-/// threads.
-const Budget& budget();
+/// The current limits. Set them before reading any file.
+Budget budget();
 void set_budget(const Budget& budget);
 
 /// The command-line option that sets a limit: the option's name, the name of its unit, the help

@@ -18,7 +18,10 @@ int Inside::turns_beyond_chord(const SegmentPolynomial& segment, Complex z) cons
   segment.roots(z, roots);
   double angle = 0;
   for (const Root& root : roots) angle += angle_of(root);
-  const double of_chord = std::arg((segment.end() - z) / (segment.start() - z));
+  // On the chord, the sign of the angle is that with which the chord was counted.
+  const Complex from = segment.start() - z, to = segment.end() - z;
+  const double of_chord =
+      std::copysign(std::arg(to / from), is_left_of(segment.start(), segment.end(), z) ? 1 : -1);
   return static_cast<int>(std::lround((angle - of_chord) / (2 * kPi)));
 }
 

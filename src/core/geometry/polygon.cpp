@@ -63,12 +63,18 @@ std::optional<Complex> common_point(Complex a, Complex b, Complex c, Complex d) 
 
 }  // namespace
 
+bool is_left_of(Complex a, Complex b, Complex z) {
+  const int side = orientation(a, b, z);
+  if (side != 0) return side > 0;
+  return b.imag() < a.imag() || (b.imag() == a.imag() && b.real() >= a.real());
+}
+
 int winding_number(PolygonView polygon, Complex z) {
   int winding = 0;
   polygon.for_each_edge([&](Index, Complex a, Complex b) {
     if (a.imag() <= z.imag()) {
-      if (b.imag() > z.imag() && orientation(a, b, z) > 0) ++winding;
-    } else if (b.imag() <= z.imag() && orientation(a, b, z) < 0) {
+      if (b.imag() > z.imag() && is_left_of(a, b, z)) ++winding;
+    } else if (b.imag() <= z.imag() && !is_left_of(a, b, z)) {
       --winding;
     }
   });

@@ -58,6 +58,9 @@ double area_of(PolygonView polygon);
 /// The length of all loops.
 double perimeter(PolygonView polygon);
 
+/// Whether z is to the left of the line from a to b. Points on the line count as left or right, as
+/// they do in winding_number().
+bool is_left_of(Complex a, Complex b, Complex z);
 /// The sum of the winding numbers of all loops around z. Points on the boundary may count as inside
 /// or outside.
 int winding_number(PolygonView polygon, Complex z);

@@ -135,11 +135,11 @@ const char* key_of(Blending blending) {
 }
 
 /// What a record stands for; the numbers are those of the block lsct.
-enum class Section { layer = 0, group = 1, divider = 3 };
+enum class RecordKind { layer = 0, group = 1, divider = 3 };
 
 /// The record of a layer whose channels have these lengths in the file.
 std::string record_of(const DrawnLayer& layer, size_t number, const std::vector<size_t>& lengths,
-                      Section section) {
+                      RecordKind section) {
   std::string bytes;
   for (const int x :
        {layer.top, layer.left, layer.top + layer.image.height, layer.left + layer.image.width})
@@ -165,7 +165,7 @@ std::string record_of(const DrawnLayer& layer, size_t number, const std::vector<
   std::string id;
   put(id, number + 1, 4);
   put_block(extra, "lyid", id);
-  if (section != Section::layer) {
+  if (section != RecordKind::layer) {
     std::string kind;
     put(kind, static_cast<size_t>(section), 4);
     put_block(extra, "lsct", kind + "8BIMnorm");
@@ -177,7 +177,7 @@ std::string record_of(const DrawnLayer& layer, size_t number, const std::vector<
 std::string layer_section(const LayeredPicture& picture) {
   std::string records, channels;
   int count = 0;
-  const auto add = [&](const DrawnLayer& layer, Section section = Section::layer) {
+  const auto add = [&](const DrawnLayer& layer, RecordKind section = RecordKind::layer) {
     std::vector<size_t> lengths;
     for (const int channel : kChannels) {
       const std::string data = channel_data(layer.image, channel);
@@ -191,9 +191,9 @@ std::string layer_section(const LayeredPicture& picture) {
   divider.name = "</Layer group>";
   group.name = "Layers";
   if (picture.background) add(background_layer(picture));
-  if (groups) add(divider, Section::divider);
+  if (groups) add(divider, RecordKind::divider);
   for (const DrawnLayer& layer : picture.layers) add(layer);
-  if (groups) add(group, Section::group);
+  if (groups) add(group, RecordKind::group);
   std::string info;
   // A negative count says that the merged picture has an alpha channel.
   put_signed(info, -count, 2);

@@ -412,6 +412,45 @@ TEST_CASE("Coordinates of scattered points: sorting them changes nothing but the
   }
 }
 
+TEST_CASE("Inside: points on the chords of curved segments") {
+  // A square whose sides bulge out or in, turned by right and by other angles. Points on a chord
+  // are inside if the side bulges out. The rows of the coordinates sum to 1 inside and to 0
+  // outside.
+  for (const unsigned seed : seeds_of("points on chords", {1, 2})) {
+    std::mt19937 random(seed);
+    for (int trial = 0; trial < 40; ++trial) {
+      const double turn =
+          trial % 3 == 0 ? 0.25 * kPi * (trial % 8) : 3 * random_complex(random).real();
+      const Complex factor =
+          trial % 3 == 1 ? Complex(std::round(8 * std::cos(turn)), std::round(8 * std::sin(turn)))
+                         : 9.0 * std::polar(1.0, turn);
+      if (factor == 0.0) continue;
+      const int degree = 2 + trial % 2;
+      Cage cage;
+      std::vector<bool> out;
+      const Complex corners[] = {0, 4, Complex(4, 4), Complex(0, 4)};
+      for (size_t e = 0; e < 4; ++e) {
+        out.push_back(random() % 2 == 0);
+        const Complex a = corners[e], b = corners[(e + 1) % 4],
+                      bulge = Complex(0, out[e] ? -0.25 : 0.25) * (b - a);
+        Points segment{factor * a};
+        for (int k = 1; k < degree; ++k)
+          segment.push_back(factor * (a + static_cast<double>(k) / degree * (b - a) + bulge));
+        cage.segments.push_back(segment);
+      }
+      const Inside inside(cage);
+      for (Index e = 0; e < 4; ++e)
+        for (const double t : {0.25, 0.375, 0.5, 0.75}) {
+          const Complex z = cage.vertex(e) + t * (cage.vertex((e + 1) % 4) - cage.vertex(e));
+          CAPTURE(seed, trial, degree, turn, e, t);
+          REQUIRE(inside.contains(z) == out[static_cast<size_t>(e)]);
+          const double sum = cauchy_coordinates(cage, {z}, 0).sum().real();
+          REQUIRE(sum == Approx(out[static_cast<size_t>(e)] ? 1 : 0).margin(1e-9));
+        }
+    }
+  }
+}
+
 TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary is inside") {
   for (const unsigned seed : seeds_of("inside of cages", {1, 2})) {
     std::mt19937 random(seed);

@@ -1,0 +1,240 @@
+// Positions come from the method at full precision, as `holomorph map` prints them.
+#include "raster/moving_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.h"
+#include "core/mesh/coarser.h"
+#include "raster/bleed.h"
+#include "scene/attachments.h"
+#include "scene/fringe.h"
+#include "scene/keyframes.h"
+#include "scene/layers.h"
+#include "scene/timed_map.h"
+
+namespace holomorph {
+namespace {
+
+using Time = std::optional<double>;
+
+/// One layer's map at any time, and the mesh that is exported of it.
+class LayerMesh {
+ public:
+  LayerMesh(const Layer& layer, bool linear_blend, const Image* picture,
+            const MovingMeshOptions& options)
+      : layer_(layer) {
+    if (!layer.deformation.has_cage()) {
+      set_plain(picture);
+      return;
+    }
+    map_ = std::make_unique<TimedMap>(layer.deformation, linear_blend);
+    rest_ = map_->mesh().vertices;
+    std::shared_ptr<const Mesh> drawn = map_->prepared().mesh;
+    for (size_t v = 0; v < rest_.size(); ++v) kept_.push_back(static_cast<int>(v));
+    if (options.vertices && *options.vertices < rest_.size()) {
+      CoarserMesh coarser = coarser_mesh(*drawn, *options.vertices);
+      kept_ = coarser.kept;
+      locations_ = std::move(coarser.locations);
+      drawn = std::make_shared<const Mesh>(std::move(coarser.mesh));
+      coarse_ = drawn;
+    }
+    if (!options.edited_only) drawn = drawn_mesh(drawn, layer.deformation);
+    triangles_ = drawn->triangles;
+    if (!options.edited_only && picture) add_fringe(*picture);
+  }
+
+  bool has_map() const { return map_ != nullptr; }
+
+  /// The positions of the layer's own mesh in its own plane.
+  const Points& positions(const Time& time) {
+    if (!map_) return rest_;
+    if (known_ && known_->first == time) return known_->second;
+    const VectorXc f = map_->on_mesh(map_->frame(time)).f;
+    known_.emplace(time, Points(f.begin(), f.end()));
+    return known_->second;
+  }
+
+  Similarity motion(const Time& time, const Attachment& attachment) {
+    if (!map_) return {};
+    if (!anchor_ || !anchor_->is_for(map_->prepared().mesh, layer_.deformation, attachment))
+      anchor_.emplace(map_->prepared().mesh, layer_.deformation, attachment);
+    return anchor_->motion(positions(time));
+  }
+
+  /// The exported mesh, without frames.
+  MovingMesh mesh() const {
+    MovingMesh mesh;
+    mesh.opacity = layer_.opacity;
+    for (const int v : kept_) mesh.rest.push_back(rest_[static_cast<size_t>(v)]);
+    if (fringe_) {
+      const int first = static_cast<int>(kept_.size());
+      mesh.rest.insert(mesh.rest.end(), fringe_->mesh.vertices.begin(),
+                       fringe_->mesh.vertices.end());
+      for (const Triangle& t : fringe_->mesh.triangles)  // below the cut-out itself
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    mesh.triangles.insert(mesh.triangles.end(), triangles_.begin(), triangles_.end());
+    return mesh;
+  }
+
+  /// The positions of the exported mesh's vertices in the layer's own plane.
+  Points exported(const Time& time) {
+    const Points& all = positions(time);
+    Points kept;
+    for (const int v : kept_) kept.push_back(all[static_cast<size_t>(v)]);
+    if (fringe_) {
+      const Points around = fringe_->positions(all);
+      kept.insert(kept.end(), around.begin(), around.end());
+    }
+    return kept;
+  }
+
+  /// The largest distance between the layer's own mesh at a time and the exported one with these
+  /// positions.
+  double distance(const Time& time, const Points& exported) {
+    const Points& all = positions(time);
+    const std::span<const Complex> kept(exported.data(), kept_.size());
+    double farthest = 0;
+    for (size_t v = 0; v < all.size(); ++v) {
+      const Complex there = coarse_ ? locations_[v].in(*coarse_, kept) : kept[v];
+      farthest = std::max(farthest, std::abs(there - all[v]));
+    }
+    return farthest;
+  }
+
+ private:
+  /// The rectangle of a picture without a cage.
+  void set_plain(const Image* picture) {
+    if (!picture) return;
+    const double w = picture->width, h = picture->height;
+    rest_ = {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)};
+    kept_ = {0, 1, 2, 3};
+    triangles_ = {{0, 1, 2}, {0, 2, 3}};
+  }
+
+  void add_fringe(const Image& picture) { fringe_ = fringe_of(map_->mesh(), picture); }
+
+  const Layer& layer_;
+  std::unique_ptr<TimedMap> map_;  ///< null without a cage
+  Points rest_;
+  std::vector<int> kept_;               ///< the exported vertices of the layer's own mesh
+  std::shared_ptr<const Mesh> coarse_;  ///< null if all are exported
+  std::vector<Location> locations_;     ///< of the layer's own vertices in the coarse mesh
+  std::vector<Triangle> triangles_;
+  std::shared_ptr<const Fringe> fringe_;
+  std::optional<std::pair<Time, Points>> known_;  ///< the last positions
+  std::optional<Anchor> anchor_;
+};
+
+/// The picture with the colors of its edge carried on into the transparent pixels, which engines
+/// mix into the edge.
+Image texture_of(const Image& picture) {
+  constexpr double kReach = 8;  // pixels
+  Image texture = picture;
+  std::vector<bool> filled;
+  for (size_t i = 3; i < picture.pixels.size(); i += 4) filled.push_back(picture.pixels[i] > 0);
+  bleed(texture, filled, kReach, [](int, int) { return false; });
+  return texture;
+}
+
+/// The exporter's state: the layers, and what has been exported of them.
+class Exporter {
+ public:
+  Exporter(const Scene& scene, const Image* picture, const Pictures& others,
+           const MovingMeshOptions& options)
+      : scene_(scene), options_(options) {
+    for (size_t i = 0; i < scene.layers.size(); ++i) {
+      const Image* own = i == scene.edited ? picture : others.of(*scene.layers[i]);
+      layers_.push_back(std::make_unique<LayerMesh>(*scene.layers[i], scene.animation.linear_blend,
+                                                    own, options));
+      MovingMesh mesh = layers_[i]->mesh();
+      const bool wanted = options.edited_only ? i == scene.edited : is_shown(scene, i);
+      if (!wanted || mesh.rest.empty()) continue;
+      mesh.name = title_of_layer(scene, i);
+      if (own) mesh.texture = texture_of(*own);
+      meshes_.push_back(std::move(mesh));
+      exported_.push_back(i);
+    }
+    if (meshes_.empty())
+      throw Error(ErrorKind::bad_input, "there is nothing to export: no visible layer has a mesh");
+  }
+
+  void add_frame(const Time& time) {
+    for (size_t k = 0; k < meshes_.size(); ++k) {
+      const size_t i = exported_[k];
+      Points points = layers_[i]->exported(time);
+      frame_error_ = std::max(frame_error_, error(i, time, points));
+      const Similarity placed = placement(i, time);
+      for (Complex& z : points) z = placed(z);
+      meshes_[k].frames.push_back(std::move(points));
+    }
+  }
+
+  /// Measures the error at a time between two frames.
+  void check(double time, const std::vector<double>& times) {
+    const auto after = std::ranges::upper_bound(times, time);
+    if (after == times.begin() || after == times.end()) return;
+    const auto next = static_cast<size_t>(after - times.begin());
+    const double u = (time - times[next - 1]) / (times[next] - times[next - 1]);
+    for (size_t k = 0; k < meshes_.size(); ++k) {
+      const size_t i = exported_[k];
+      const Points &from = meshes_[k].frames[next - 1], &to = meshes_[k].frames[next];
+      // Back to the layer's own plane, in which it is compared.
+      const Similarity back = inverse(placement(i, time));
+      Points between;
+      for (size_t v = 0; v < from.size(); ++v)
+        between.push_back(back((1 - u) * from[v] + u * to[v]));
+      error_ = std::max(error_, error(i, time, between));
+    }
+  }
+
+  MovingMeshes result(std::vector<double> times) && {
+    return {std::move(times), std::move(meshes_), frame_error_, std::max(error_, frame_error_)};
+  }
+
+ private:
+  double error(size_t layer, const Time& time, const Points& points) {
+    return std::abs(placement(layer, time).factor) * layers_[layer]->distance(time, points);
+  }
+
+  Similarity placement(size_t layer, const Time& time) {
+    if (options_.edited_only) return {};
+    return placement_of(scene_, layer, [&](size_t child) {
+      const Layer& it = *scene_.layers[child];
+      return layers_[*parent_of(scene_, it)]->motion(time, *it.attachment);
+    });
+  }
+
+  const Scene& scene_;
+  const MovingMeshOptions& options_;
+  std::vector<std::unique_ptr<LayerMesh>> layers_;
+  std::vector<MovingMesh> meshes_;
+  std::vector<size_t> exported_;  ///< the layer of each mesh
+  double frame_error_ = 0, error_ = 0;
+};
+
+}  // namespace
+
+MovingMeshes moving_meshes_of(const Scene& scene, const Image* picture, const Pictures& others,
+                              const MovingMeshOptions& options,
+                              const std::function<void(size_t done, size_t all)>& step) {
+  if (!options.times.empty() && has_keyframes(scene) && !has_playing_keys(scene))
+    throw no_key_plays();
+  Exporter exporter(scene, picture, others, options);
+  const size_t all = std::max<size_t>(1, options.times.size()) + options.checked.size();
+  size_t done = 0;
+  if (options.times.empty()) exporter.add_frame({});
+  for (const double time : options.times) {
+    step(done++, all);
+    exporter.add_frame(time);
+  }
+  for (const double time : options.checked) {
+    step(done++, all);
+    exporter.check(time, options.times);
+  }
+  return std::move(exporter).result(options.times.empty() ? std::vector<double>{0} : options.times);
+}
+
+}  // namespace holomorph

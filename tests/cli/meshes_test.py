@@ -1,0 +1,270 @@
+# Moving meshes: every vertex of every frame is where the map takes it, and the files are whole.
+import json
+import math
+import os
+import random
+import re
+import struct
+import subprocess
+import sys
+import unittest
+
+import numpy
+from PIL import Image
+
+from case import SOURCE, Case
+
+FERN = os.path.join(SOURCE, "assets/fern.json")
+
+
+class Glb:
+    """A reader of the parts of glTF that matter here, which checks sizes and bounds as it goes."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            data = file.read()
+        magic, version, size = struct.unpack_from("<4sII", data)
+        assert (magic, version, size) == (b"glTF", 2, len(data))
+        length, kind = struct.unpack_from("<I4s", data, 12)
+        assert kind == b"JSON" and length % 4 == 0
+        self.json = json.loads(data[20:20 + length])
+        binary, kind = struct.unpack_from("<I4s", data, 20 + length)
+        assert kind == b"BIN\0" and binary % 4 == 0
+        self.binary = data[28 + length:]
+        assert len(self.binary) == binary == self.json["buffers"][0]["byteLength"]
+
+    def view(self, index):
+        view = self.json["bufferViews"][index]
+        assert view["byteOffset"] % 4 == 0
+        return self.binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+
+    def accessor(self, index):
+        it = self.json["accessors"][index]
+        kind = {5125: "<u4", 5126: "<f4"}[it["componentType"]]
+        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[it["type"]]
+        values = numpy.zeros((it["count"], width), kind)
+        if "bufferView" in it:
+            values = numpy.frombuffer(self.view(it["bufferView"]), kind).reshape(it["count"], width)
+        if "sparse" in it:
+            indices = numpy.frombuffer(self.view(it["sparse"]["indices"]["bufferView"]), "<u4")
+            assert len(indices) == it["sparse"]["count"] and (numpy.diff(indices.astype(int)) > 0).all()
+            values = values.copy()
+            values[indices] = numpy.frombuffer(self.view(it["sparse"]["values"]["bufferView"]), kind).reshape(-1, width)
+        if "min" in it:
+            assert (values.min(axis=0) == numpy.float32(it["min"])).all() and (values.max(axis=0) == numpy.float32(it["max"])).all()
+        return values
+
+    def node(self, name):
+        return next(node for node in self.json["nodes"] if node["name"] == name)
+
+    def frames(self, name):
+        """The times and the positions of a node's vertices at its frames, by the animation."""
+        index = next(i for i, node in enumerate(self.json["nodes"]) if node["name"] == name)
+        primitive, = self.json["meshes"][self.json["nodes"][index]["mesh"]]["primitives"]
+        first = self.accessor(primitive["attributes"]["POSITION"]).astype(float)
+        targets = [self.accessor(t["POSITION"]).astype(float) for t in primitive.get("targets", [])]
+        for animation in self.json.get("animations", []):
+            for channel in animation["channels"]:
+                if channel["target"]["node"] == index:
+                    sampler = animation["samplers"][channel["sampler"]]
+                    times = self.accessor(sampler["input"])[:, 0]
+                    weights = self.accessor(sampler["output"])[:, 0].reshape(len(times), len(targets))
+                    return times, [first + sum((w * t for w, t in zip(row, targets) if w), numpy.zeros_like(first)) for row in weights]
+        return [0], [first]
+
+
+class Meshes(Case):
+    def positions(self, scene, *words):
+        """The vertices of the edited layer's mesh, as `holomorph map` computes them."""
+        self.good("export", scene, "--format", "npy", "--out", self.path("v.npy"), "--force", *words)
+        return numpy.load(self.path("v.npy"))
+
+    def moving(self, rng, layers=2):
+        """Layers with random poses at random times."""
+        w, h = 120, 90
+        list = []
+        for i in range(layers):
+            Image.effect_mandelbrot((w, h), (-2, -1, 1, 1), 20 + i).convert("RGB").save(self.path(f"{i}.png"))
+            cage = [[10, 10], [110, 10], [110, 80], [10, 80]]
+            keys = [{"time": t, "pose": {"cage": [[[x + rng.uniform(-15, 15), y + rng.uniform(-15, 15)]] for x, y in cage]}}
+                    for t in sorted(rng.sample(range(1, 12), 3))]
+            for key in keys:
+                key["time"] /= 8
+            list.append({"name": f"layer {i}", "image": {"file": f"{i}.png"}, "cage": {"rest": [[p] for p in cage]},
+                         "method": {"id": rng.choice(["cage", "harmonic", "mean_value"])}, "keyframes": keys,
+                         "opacity": [1, 0.5][i % 2]})
+        return self.write("moving.json", {"format": "holomorph", "version": 2, "animation": {"frames_per_second": 8}, "layers": list})
+
+    def times(self, scene):
+        scene = json.load(open(scene))
+        layers = scene.get("layers", [scene])
+        last = max(key["time"] for layer in layers for key in layer.get("keyframes", []))
+        return scene["animation"]["frames_per_second"], last
+
+    def test_gltf_has_the_vertices_of_the_map_at_every_frame(self):
+        for seed in (1, random.randrange(1 << 30)):
+            with self.subTest(seed=seed):
+                scene = self.moving(random.Random(seed))
+                self.good("export", scene, "--format", "glb", "--out", self.path("m.glb"), "--force")
+                glb = Glb(self.path("m.glb"))
+                times, frames = glb.frames("layer 1")  # the edited one
+                rate, _ = self.times(scene)
+                numpy.testing.assert_allclose(times, numpy.arange(len(times)) / rate, atol=1e-6)
+                for time, frame in zip(times, frames):
+                    wanted = self.positions(scene, "--time", time) / 100
+                    self.assertLess(numpy.abs(frame[:len(wanted), :2] - wanted).max(), 1e-5, (seed, time))
+                    self.assertTrue((frame[:, 2] == 0).all())
+                material = glb.json["materials"][glb.json["meshes"][1]["primitives"][0]["material"]]
+                self.assertEqual(material["pbrMetallicRoughness"]["baseColorFactor"], [1, 1, 1, 0.5])
+                self.assertIn("KHR_materials_unlit", material["extensions"])
+
+    def test_what_does_not_move_is_stored_once_and_what_rests_takes_no_room(self):
+        scene = json.load(open(self.moving(random.Random(3))))
+        del scene["layers"][0]["keyframes"]
+        self.good("export", self.write("half.json", scene), "--format", "glb", "--out", self.path("m.glb"))
+        glb = Glb(self.path("m.glb"))
+        first, second = glb.json["meshes"]
+        self.assertNotIn("targets", first["primitives"][0])
+        self.assertEqual(len(second["primitives"][0]["targets"]), len(second["weights"]))
+        # A pin of a rigid method moves only one end of a long picture at first.
+        sparse = [a for a in glb.json["accessors"] if "sparse" in a]
+        for accessor in sparse:
+            self.assertLess(16 * accessor["sparse"]["count"], 12 * accessor["count"])
+
+    def test_the_error_that_is_said_is_the_error(self):
+        rng = random.Random(random.randrange(1 << 30))
+        scene = self.moving(rng, 1)
+        rate, last = self.times(scene)
+        for options, step in (([], 1 / rate), (["--rate", "4"], 1 / 4)):
+            said = self.good("export", scene, "--format", "glb", "--out", self.path("m.glb"), "--force", *options).stderr
+            told = float(re.search(r"at most (\S+) px off between frames", said)[1])
+            times, frames = Glb(self.path("m.glb")).frames("layer 0")
+            farthest = 0
+            for a, b, fa, fb in zip(times, times[1:], frames, frames[1:]):
+                self.assertLessEqual(b - a, step + 1e-6)
+                wanted = self.positions(scene, "--time", (float(a) + float(b)) / 2)
+                between = 50 * (fa + fb)[:len(wanted), :2]
+                farthest = max(farthest, numpy.hypot(*(between - wanted).T).max())
+            self.assertGreaterEqual(told, farthest * 0.9, options)
+            self.assertLessEqual(told, farthest * 1.6 + 0.01, options)
+
+    def test_the_fern_is_precise_between_its_frames(self):
+        said = self.good("export", FERN, "--format", "glb", "--out", self.path("f.glb")).stderr
+        told = float(re.search(r"at most (\S+) px off between frames", said)[1])
+        if told > 0.5:
+            rate = re.search(r"with --rate (\d+), less than 0.5 px", said)[1]
+            said = self.good("export", FERN, "--format", "glb", "--out", self.path("f.glb"), "--force", "--rate", rate).stderr
+            self.assertLess(float(re.search(r"at most (\S+) px off between frames", said)[1]), 0.5)
+
+    def test_fewer_vertices_are_some_of_all_and_say_their_error(self):
+        said = self.good("export", FERN, "--format", "glb", "--out", self.path("f.glb"), "--frames", "0..3", "--vertices", "400").stderr
+        told = float(re.search(r"at most (\S+) px off at the frames", said)[1])
+        self.assertGreater(told, 0)
+        glb = Glb(self.path("f.glb"))
+        name = glb.json["nodes"][1]["name"]
+        _, frames = glb.frames(name)
+        all_vertices = self.positions(FERN, "--time", "0") / 100
+        kept = frames[0][:, :2]
+        # Except for the faint surroundings, each vertex is one of the whole mesh.
+        distance = [numpy.hypot(*(all_vertices - v).T).min() for v in kept[:300]]
+        self.assertLess(max(distance), 1e-5)
+
+    def test_keys_alone_are_exported(self):
+        scene = self.moving(random.Random(8), 1)
+        self.good("export", scene, "--format", "glb", "--out", self.path("k.glb"), "--keys")
+        times, _ = Glb(self.path("k.glb")).frames("layer 0")
+        keys = [key["time"] for key in json.load(open(scene))["layers"][0]["keyframes"]]
+        self.assertLessEqual({round(k, 5) for k in keys}, {round(float(t), 5) for t in times} | {0.0})
+        self.assertLessEqual(len(times), len(keys) + 2)
+
+    def test_vertex_caches_have_the_vertices_of_the_map(self):
+        scene = self.moving(random.Random(9), 1)
+        rate, _ = self.times(scene)
+        for kind in ("mdd", "pc2"):
+            self.good("export", scene, "--format", kind, "--out", self.path("c." + kind), "--frames", "0..4")
+        data = open(self.path("c.mdd"), "rb").read()
+        frames, points = struct.unpack_from(">II", data)
+        times = numpy.frombuffer(data, ">f4", frames, 8)
+        mdd = numpy.frombuffer(data, ">f4", -1, 8 + 4 * frames).reshape(frames, points, 3)
+        data = open(self.path("c.pc2"), "rb").read()
+        magic, version, count, start, step, samples = struct.unpack_from("<12siiffi", data)
+        self.assertEqual((magic, version, count, start, step, samples), (b"POINTCACHE2\0", 1, points, 0, 1, frames))
+        pc2 = numpy.frombuffer(data, "<f4", -1, 32).reshape(frames, points, 3)
+        self.assertEqual(frames, 5)
+        self.assertTrue((mdd == pc2).all())
+        for k, time in enumerate(times):
+            wanted = self.positions(scene, "--time", k / rate)
+            self.assertAlmostEqual(float(time), k / rate, 5)
+            self.assertLess(numpy.abs(mdd[k, :, :2] - wanted).max(), 1e-4)
+
+    def test_obj_sequences_share_a_material(self):
+        scene = self.moving(random.Random(10), 1)
+        rate, _ = self.times(scene)
+        self.good("export", scene, "--format", "obj", "--out", self.path("o.obj"), "--frames", "2..4")
+        self.assertTrue(os.path.exists(self.path("o.mtl")) and os.path.exists(self.path("o.png")))
+        for k in (2, 3, 4):
+            lines = open(self.path(f"o-{k:04}.obj")).read().split("\n")
+            self.assertEqual(lines[0], "mtllib o.mtl")
+            seen = numpy.array([[float(x) for x in line.split()[1:3]] for line in lines if line.startswith("v ")])
+            self.assertLess(numpy.abs(seen - self.positions(scene, "--time", k / rate)).max(), 1e-5)
+            if k == 2:
+                told = subprocess.run(["assimp", "info", self.path("o-0002.obj")], capture_output=True, text=True)
+                self.assertIn(f"Vertices:           {len(seen)}", told.stdout)
+
+    def test_assimp_reads_the_gltf(self):
+        scene = self.moving(random.Random(11))
+        self.good("export", scene, "--format", "glb", "--out", self.path("a.glb"))
+        told = subprocess.run(["assimp", "info", self.path("a.glb")], capture_output=True, text=True)
+        self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+        self.assertRegex(told.stdout, r"Meshes:\s+2\b")
+        self.assertRegex(told.stdout, r"Animations:\s+1\b")
+        self.assertRegex(told.stdout, r"Textures \(embed\.\):\s+2\b")
+
+    def test_godot_scenes_have_the_frames(self):
+        scene = self.moving(random.Random(12), 1)
+        rate, _ = self.times(scene)
+        self.good("export", scene, "--format", "godot", "--out", self.path("g.tscn"), "--frames", "0..3")
+        text = open(self.path("g.tscn")).read()
+        self.assertTrue(os.path.exists(self.path("g-layer 0.png")))
+        values = re.search(r'"values": \[ (.*) \]', text)[1]
+        frames = [numpy.array([float(x) for x in list.split(",")]).reshape(-1, 2) for list in re.findall(r"PoolVector2Array\( (.*?) \)", values)]
+        self.assertEqual(len(frames), 4)
+        for k, frame in enumerate(frames):
+            self.assertLess(numpy.abs(frame * [1, -1] - self.positions(scene, "--time", k / rate)).max(), 1e-4)
+
+    def test_spine_skeletons_are_whole(self):
+        scene = self.moving(random.Random(13))
+        self.good("export", scene, "--format", "spine", "--out", self.path("s.json"), "--frames", "0..3")
+        skeleton = json.load(open(self.path("s.json")))
+        self.assertEqual([slot["name"] for slot in skeleton["slots"]], ["layer 0", "layer 1"])
+        for slot in skeleton["slots"]:
+            mesh = skeleton["skins"][0]["attachments"][slot["name"]][slot["attachment"]]
+            self.assertTrue(os.path.exists(self.path(mesh["path"] + ".png")))
+            count = len(mesh["vertices"]) // 2
+            self.assertEqual(len(mesh["uvs"]), 2 * count)
+            self.assertEqual(sorted(set(mesh["triangles"])), list(range(count)))
+            self.assertTrue(3 <= mesh["hull"] <= count)
+            # The edges between successive hull vertices are edges of triangles.
+            t = numpy.array(mesh["triangles"]).reshape(-1, 3)
+            edges = {tuple(e) for e in numpy.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]).tolist()}
+            for k in range(mesh["hull"]):
+                self.assertIn((k, (k + 1) % mesh["hull"]), edges)
+            deform = skeleton["animations"]["motion"]["attachments"]["default"][slot["name"]][slot["attachment"]]["deform"]
+            self.assertEqual(len(deform), 4)
+            self.assertTrue(all(len(key["vertices"]) == 2 * count for key in deform))
+            self.assertTrue(all(math.isfinite(x) for key in deform for x in key["vertices"]))
+
+    def test_still_scenes_and_wrong_options(self):
+        still = os.path.join(SOURCE, "assets/gecko.json")
+        self.good("export", still, "--format", "glb", "--out", self.path("still.glb"))
+        self.assertNotIn("animations", Glb(self.path("still.glb")).json)
+        for words, says in ((["--format", "mdd", "--rate", "5"], "--rate cannot be used with mdd"),
+                            (["--format", "svg", "--vertices", "50"], "--vertices cannot be used with svg"),
+                            (["--format", "godot", "--out", "-"], "several files"),
+                            (["--format", "glb", "--scale", "2"], "--scale cannot be used with glb")):
+            self.bad("export", FERN, "--out", self.path("x"), *words, says=says)
+        self.assertFalse(os.path.exists(self.path("x")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
