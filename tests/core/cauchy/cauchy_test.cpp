@@ -444,7 +444,7 @@ TEST_CASE("Inside: points on the chords of curved segments") {
           const Complex z = cage.vertex(e) + t * (cage.vertex((e + 1) % 4) - cage.vertex(e));
           CAPTURE(seed, trial, degree, turn, e, t);
           REQUIRE(inside.contains(z) == out[static_cast<size_t>(e)]);
-          const double sum = cauchy_coordinates(cage, {z}, 0).sum().real();
+          const double sum = cauchy_coordinates(cage, Points{z}, 0).sum().real();
           REQUIRE(sum == Approx(out[static_cast<size_t>(e)] ? 1 : 0).margin(1e-9));
         }
     }
