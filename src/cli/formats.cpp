@@ -70,7 +70,7 @@ std::vector<Row> rows() {
   for (const FileKind& kind : file_kinds()) {
     std::vector<std::string> writes = written_to(kind.extensions[0]);
     if (kind.content == FileContent::scene || kind.content == FileContent::points)
-      writes.push_back(text_of(kind.content));
+      writes.insert(writes.begin(), text_of(kind.content));
     const bool layered = may_have_layers("a" + kind.extensions[0]);
     rows.push_back({joined(kind.extensions, " "),
                     layered ? "a picture with its layers" : text_of(kind.content),
