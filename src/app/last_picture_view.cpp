@@ -20,7 +20,7 @@ constexpr double kSignMs = 150;  ///< when the sign appears
 constexpr int kLongestPictureSide = 1400;
 
 /// All that is needed to draw a layer on another thread.
-struct DrawnLayer {
+struct LayerSnapshot {
   std::shared_ptr<const Mesh> mesh;
   VectorXc f;
   std::shared_ptr<const Image> picture;
@@ -59,9 +59,9 @@ bool is_settled(const Workspace& workspace) {
          });
 }
 
-LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
+LastPicture picture_of(const std::vector<LayerSnapshot>& layers) {
   Box box;
-  for (const DrawnLayer& layer : layers) {
+  for (const LayerSnapshot& layer : layers) {
     const double w = layer.picture->width, h = layer.picture->height;
     for (const Complex& z : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
       box.include(layer.placement(z));
@@ -69,7 +69,7 @@ LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
   }
   const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
   Composition all(scale);
-  for (const DrawnLayer& layer : layers) {
+  for (const LayerSnapshot& layer : layers) {
     RasterJob job;
     job.mesh = layer.mesh.get();
     job.positions = as_span(layer.f);
@@ -84,7 +84,7 @@ LastPicture picture_of(const std::vector<DrawnLayer>& layers) {
     job.top = box.top;
     all.add(rasterized(job), layer.ink);
   }
-  RasterResult result = all.result();
+  RasterResult result = std::move(all).result();
   LastPicture picture;
   picture.box.include(result.corner);
   picture.box.include(result.corner + Complex(result.image.width, result.image.height) / scale);
@@ -134,7 +134,7 @@ void LastPictureView::update(const Workspace& workspace) {
 
 void LastPictureView::keep(const Workspace& workspace) {
   kept_hash_ = workspace.document.file_hash();
-  std::vector<DrawnLayer> layers;
+  std::vector<LayerSnapshot> layers;
   const Scene& scene = workspace.document.scene();
   if (scene.background.fill == Background::Fill::original)
     for (const SharedLayer& layer : scene.layers)

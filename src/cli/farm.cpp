@@ -81,10 +81,6 @@ if [ "${1:-plan}" = draw ]; then
     --frames "$from..$((to < last ? to : last))"
 fi
 
-if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then
-  echo "holomorph: submit $script without --array" >&2
-  exit 1
-fi
 round=${2:-1}
 missing=$(missing_chunks)
 if [ -z "$missing" ]; then

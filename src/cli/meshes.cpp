@@ -37,7 +37,12 @@ MovingMeshOptions options_of(const Scene& scene, const ExportCommand& command) {
   options.vertices = command.vertices;
   options.edited_only = !format.all_layers;
   if (command.moments.time) options.times = {*command.moments.time};
-  if (command.moments.time || !plays(scene)) return options;
+  if (command.moments.time || (!command.moments.frames && !plays(scene))) {
+    if (command.rate || command.keys)
+      throw Error(ErrorKind::bad_input,
+                  "--rate and --keys are for a motion; the export has a single moment");
+    return options;
+  }
   const double rate = scene.animation.frames_per_second;
   const FrameRange range = frames_named(command.moments.frames.value_or("all"), scene);
   std::vector<double> frames;
@@ -46,6 +51,7 @@ MovingMeshOptions options_of(const Scene& scene, const ExportCommand& command) {
     options.times = key_times(scene, frames.front(), frames.back());
   } else if (command.rate) {
     const double length = frames.back() - frames.front();
+    check_budget(&Budget::frames, length * *command.rate, "the export has");
     for (int k = 0; k < length * *command.rate - 1e-6; ++k)
       options.times.push_back(frames.front() + k / *command.rate);
     options.times.push_back(frames.back());
@@ -83,10 +89,11 @@ std::string error_text(const MovingMeshes& moving) {
 }
 
 /// The files of an export and what they contain, the main one first.
-using Files = std::vector<std::pair<Path, std::string>>;
+using OutFiles = std::vector<std::pair<Path, std::string>>;
 
 /// The textures of all meshes next to the main file, by file name; "" for a mesh without one.
-std::vector<std::string> add_textures(const MovingMeshes& moving, const Path& out, Files& files) {
+std::vector<std::string> add_textures(const MovingMeshes& moving, const Path& out,
+                                      OutFiles& files) {
   std::vector<std::string> names;
   const std::vector<std::string> meshes = unique_names(moving);
   for (size_t i = 0; i < moving.meshes.size(); ++i) {
@@ -99,12 +106,12 @@ std::vector<std::string> add_textures(const MovingMeshes& moving, const Path& ou
 }
 
 /// A sequence of OBJ files that share a material.
-Files obj_files(const MovingMeshes& moving, const Path& out, int first) {
+OutFiles obj_files(const MovingMeshes& moving, const Path& out, int first) {
   const MovingMesh& mesh = moving.meshes[0];
   const auto with = [&](const char* extension) { return Path(out).replace_extension(extension); };
   Points coordinates;
   for (const Complex& z : mesh.rest) coordinates.push_back(texture_coordinate(mesh, z));
-  Files files;
+  OutFiles files;
   for (size_t k = 0; k < mesh.frames.size(); ++k) {
     Surface surface;
     for (const Complex& z : mesh.frames[k]) surface.vertices.push_back({z.real(), z.imag(), 0});
@@ -116,12 +123,13 @@ Files obj_files(const MovingMeshes& moving, const Path& out, int first) {
     files.emplace_back(with(".mtl"), material_of(""));
     return files;
   }
-  files.emplace_back(with(".mtl"), material_of(with(".png").filename().string()));
-  files.emplace_back(with(".png"), encode_png(mesh.texture));
+  const Path texture = out.parent_path() / (out.stem().string() + "-texture.png");
+  files.emplace_back(with(".mtl"), material_of(texture.filename().string()));
+  files.emplace_back(texture, encode_png(mesh.texture));
   return files;
 }
 
-Files files_of(const MovingMeshes& moving, const ExportCommand& command, const Scene& scene) {
+OutFiles files_of(const MovingMeshes& moving, const ExportCommand& command, const Scene& scene) {
   const Path& out = command.out;
   const std::string& format = command.format;
   if (format == "obj")
@@ -129,7 +137,7 @@ Files files_of(const MovingMeshes& moving, const ExportCommand& command, const S
   if (format == "glb") return {{out, glb_of(moving)}};
   if (format == "mdd") return {{out, mdd_of(moving.meshes[0], moving.times)}};
   if (format == "pc2") return {{out, pc2_of(moving.meshes[0], moving.times)}};
-  Files files{{out, ""}};
+  OutFiles files{{out, ""}};
   const std::vector<std::string> textures = add_textures(moving, out, files);
   files[0].second = format == "godot" ? godot_of(moving, textures) : spine_of(moving, textures);
   return files;
@@ -160,9 +168,10 @@ void export_meshes(const LoadedScene& loaded, const ExportCommand& command) {
                 command.format + " has several files; give a file name with --out");
   const bool all_layers = export_format_named(command.format).all_layers;
   if (!all_layers) require_cage(scene, command.scene);
+  check_out(command.out, command.force, command.scene, loaded);
   const DeferredStop tidy;
   MovingMeshes moving;
-  Files files;
+  OutFiles files;
   {
     Progress progress("export", "frame");
     moving = moving_meshes_of(scene, loaded.image(), loaded.pictures, options_of(scene, command),

@@ -103,28 +103,28 @@ void Composition::add(RasterResult picture, const LayerInk& ink) {
     if (!group_) group_ = layer_of(*base_);
     return blend(layer_of(picture), *group_, ink);
   }
-  if (base_) below_ = all(std::move(below_));
-  group_.reset();
+  if (base_) below_ = take_all();
   base_ = std::move(picture);
   base_ink_ = ink;
 }
 
-Composition::Layer Composition::all(std::optional<Layer> below) const {
-  const Layer over = group_ ? *group_ : layer_of(*base_);
-  Layer under = below ? std::move(*below) : Layer{0, 0, over.corner, {}};
+Composition::Layer Composition::take_all() {
+  const Layer over = group_ ? std::move(*group_) : layer_of(*base_);
+  Layer under = below_ ? std::move(*below_) : Layer{0, 0, over.corner, {}};
+  group_.reset();
   enlarge(under, over);
   blend(over, under, base_ink_);
   return under;
 }
 
-RasterResult Composition::result() const {
+RasterResult Composition::result() && {
   check(base_.has_value(), "Composition: there is a picture");
   if (!below_ && !group_) {
-    RasterResult only = *base_;
+    RasterResult only = std::move(*base_);
     fade(only.image, base_ink_);
     return only;
   }
-  const Layer layer = all(below_);
+  const Layer layer = take_all();
   RasterResult result{Image(layer.width, layer.height), layer.corner};
   for (size_t i = 0; i < layer.pixels.size(); ++i) {
     const Pixel& from = layer.pixels[i];
@@ -172,8 +172,8 @@ void Composition::blend(const Layer& over, Layer& under, const LayerInk& ink) co
             columns = std::min(over.width, under.width - left);
   for (int r = std::max(0, -top); r < rows; ++r) {
     const Pixel* from = &over.pixels[static_cast<size_t>(r) * static_cast<size_t>(over.width)];
-    Pixel* to = under.pixels.data() + static_cast<long>(top + r) * under.width + left;
-    for (int c = std::max(0, -left); c < columns; ++c) blend_pixel(from[c], to[c], ink);
+    Pixel* to = &under.pixels[static_cast<size_t>(top + r) * static_cast<size_t>(under.width)];
+    for (int c = std::max(0, -left); c < columns; ++c) blend_pixel(from[c], to[left + c], ink);
   }
 }
 

@@ -14,8 +14,7 @@ namespace holomorph {
 struct LayerInk {
   unsigned opacity = 255;
   Blending blending = Blending::normal;
-  bool clipped =
-      false;  ///< changes the colors of the last layer that is not clipped, not its alpha
+  bool clipped = false;  ///< changes the colors of the nearest unclipped layer below, not its alpha
 };
 /// The ink of a layer of a scene.
 LayerInk ink_of(const Scene& scene, size_t layer);
@@ -33,7 +32,7 @@ class Composition {
   void add(RasterResult picture, const LayerInk& ink = {});
   bool empty() const { return !base_; }
   /// The result in 8-bit straight alpha. There must be a picture.
-  RasterResult result() const;
+  RasterResult result() &&;
 
  private:
   using Pixel = std::array<float, 4>;  ///< premultiplied, 0 to 1
@@ -45,8 +44,8 @@ class Composition {
   static Layer layer_of(const RasterResult& picture);
   void blend(const Layer& over, Layer& under, const LayerInk& ink) const;
   void enlarge(Layer& under, const Layer& over) const;
-  /// The base, with what is clipped to it, on what is below it.
-  Layer all(std::optional<Layer> below) const;
+  /// Takes the base, with what is clipped to it, on what is below it.
+  Layer take_all();
 
   double pixels_per_unit_;
   std::optional<Layer> below_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "raster/compose.h"
 #include "scene/layers.h"
@@ -38,16 +39,19 @@ LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
   if (scene.background.fill == Background::Fill::original)
     if (const auto original = maker.originals(options))
       picture.layers.push_back(on_canvas(*original, canvas, options.scale, "Original"));
+  std::set<size_t> added_layers;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
+    const std::optional<size_t> base = clip_base(scene, i);
     const std::optional<RasterResult> drawn = maker.layer(i, options);
-    if (!drawn) continue;
+    if (!drawn || (base && !added_layers.contains(*base))) continue;
+    added_layers.insert(i);
     DrawnLayer& added = picture.layers.emplace_back(
         on_canvas(*drawn, canvas, options.scale, title_of_layer(scene, i)));
     added.visible = layer.visible;
     added.opacity = layer.opacity;
     added.blending = layer.blending;
-    added.clipped = clip_base(scene, i).has_value();
+    added.clipped = base.has_value();
   }
   return picture;
 }

@@ -223,10 +223,9 @@ std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOpti
 std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) const {
   const Frame frame = frame_of(options);
   Composition all(options.scale);
-  for (const auto& layer : layers_)
-    if (layer->source() && (layer->visible() || !has_layers(scene_)))
-      all.add(layer->original(frame.options, frame.top));
-  return all.empty() ? std::nullopt : std::optional(all.result());
+  for (size_t i = 0; i < layers_.size(); ++i)
+    if (layers_[i]->source() && draws(i)) all.add(layers_[i]->original(frame.options, frame.top));
+  return all.empty() ? std::nullopt : std::optional(std::move(all).result());
 }
 
 RasterResult PictureMaker::picture(const PictureOptions& options) {
@@ -243,7 +242,7 @@ RasterResult PictureMaker::picture(const PictureOptions& options) {
     if (draws(i)) all.add(drawn(i), ink_of(scene_, i));
   if (all.empty())
     throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
-  RasterResult result = all.result();
+  RasterResult result = std::move(all).result();
   if (options.crops_to_filled) result = cropped_to_filled(std::move(result), options.scale);
   if (scene_.background.fill == Background::Fill::color)
     composite_onto_color(result.image, scene_.background.color);

@@ -11,8 +11,7 @@ namespace holomorph {
 struct Ink {
   int blending = 0;  ///< the number of the mode; see shaders/composite.frag
   double opacity = 1;
-  bool clipped =
-      false;  ///< changes the colors of the last layer that is not clipped, not its alpha
+  bool clipped = false;  ///< changes the colors of the nearest unclipped layer below, not its alpha
 };
 
 /// Layers are drawn one by one into a texture of the window's size, and combined. Needs a current

@@ -41,7 +41,7 @@ RasterResult composed(const RasterResult& under, const RasterResult& over, doubl
   Composition all(pixels_per_unit);
   all.add(under);
   all.add(over, ink);
-  return all.result();
+  return std::move(all).result();
 }
 
 constexpr Pixel kRed{255, 0, 0, 255}, kBlue{0, 0, 255, 255}, kNothing{0, 0, 0, 0};
@@ -290,7 +290,7 @@ TEST_CASE("Many faint layers add up as they do without rounding") {
       for (size_t k = 0; k < 4; ++k)
         exact[k] = (k < 3 ? pixel[k] / 255.0 : 1) * a + (1 - a) * exact[k];
     }
-    const Pixel seen = pixel_at(all.result().image, 1, 1);
+    const Pixel seen = pixel_at(std::move(all).result().image, 1, 1);
     CHECK(std::abs(seen[3] - 255 * exact[3]) <= 0.51);
     for (size_t k = 0; k < 3; ++k) CHECK(std::abs(seen[k] - 255 * exact[k] / exact[3]) <= 0.51);
   }
@@ -324,7 +324,7 @@ TEST_CASE("A clipped layer is drawn only where its base is, and does not show th
       }
     group.add({images[0], 0});
     group.add({atop, 0}, base);
-    const Image seen = all.result().image, wanted = group.result().image;
+    const Image seen = std::move(all).result().image, wanted = std::move(group).result().image;
     REQUIRE(seen.width == 20);
     REQUIRE(seen.height == 10);
     int farthest = 0;
@@ -384,7 +384,7 @@ TEST_CASE("The same layer pixels give the same bits, and a faint lowest layer st
   CHECK(pixel_at(once, 1, 1) == Pixel{128, 0, 127, 255});
   Composition lowest(1);
   lowest.add({red, 0}, half);
-  const Image faint = lowest.result().image;
+  const Image faint = std::move(lowest).result().image;
   CHECK(pixel_at(faint, 0, 0) == Pixel{255, 0, 0, 128});
   CHECK(composed({Image(4, 4), 0}, {red, 0}, 1, half).image == faint);
 }

@@ -45,7 +45,7 @@ bool is_moved(const Workspace& workspace, const Layer& layer) {
   return !is_identity(workspace.placement(layer_index(workspace.document.scene(), layer.id)));
 }
 
-Ink ink_of(const Scene& scene, size_t layer) {
+Ink canvas_ink(const Scene& scene, size_t layer) {
   const Layer& it = *scene.layers[layer];
   return {static_cast<int>(it.blending), it.opacity, clip_base(scene, layer).has_value()};
 }
@@ -171,7 +171,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
       for (const OnionSkin& skin : skins)
         drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
     }
-    draw(*layer, std::move(drawing), ink_of(scene, number));
+    draw(*layer, std::move(drawing), canvas_ink(scene, number));
   }
   if (combines) {
     const auto px = [](double value) { return static_cast<int>(value); };

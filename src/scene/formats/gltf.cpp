@@ -169,6 +169,11 @@ void GltfWriter::add(const MovingMesh& mesh, const std::vector<double>& times, s
   GltfJson primitive = this->primitive(mesh);
   const bool animated = moves(mesh);
   const size_t targets = animated ? mesh.frames.size() - 1 : 0;
+  constexpr size_t kMostWeights = 100'000'000;
+  if (targets * times.size() > kMostWeights)
+    throw Error(ErrorKind::bad_input,
+                "glTF stores a number for each pair of frames, and there are " +
+                    std::to_string(times.size()) + " frames; choose fewer by --frames or --rate");
   for (size_t i = 1; i <= targets; ++i) {
     std::vector<Vertex> displacements;
     for (size_t v = 0; v < mesh.rest.size(); ++v) {
@@ -205,7 +210,7 @@ std::string GltfWriter::file() {
   document_["extensionsUsed"] = {"KHR_materials_unlit"};
   buffer_.resize((buffer_.size() + 3) / 4 * 4, '\0');
   document_["buffers"] = GltfJson::array({{{"byteLength", buffer_.size()}}});
-  std::string json = document_.dump();
+  std::string json = document_.dump(-1, ' ', false, GltfJson::error_handler_t::replace);
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const size_t size = 12 + 8 + json.size() + 8 + buffer_.size();
   if (size > std::numeric_limits<std::uint32_t>::max())

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scene/formats/image_formats.h"
 #include "scene/formats/ora_image.h"
 #include "scene/formats/psd_image.h"
 #include "system/text.h"
@@ -17,7 +18,8 @@ bool may_have_layers(const Path& file) {
 
 FileLayers layers_of_file(const std::string& bytes, const std::string& name) {
   if (is_psd(bytes)) return psd_layers(bytes, name);
-  return ora_layers(bytes, name);
+  if (is_ora(bytes)) return ora_layers(bytes, name);
+  return {};  // another kind of picture, in spite of its name
 }
 
 Image decode_layer(const std::string& bytes, const std::string& entry, const std::string& name,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <set>
+#include <map>
 
 #include "core/error.h"
 #include "scene/budget.h"
@@ -16,6 +16,8 @@ namespace holomorph {
 namespace {
 
 constexpr size_t kDeepestPsdGroup = 50;  ///< levels of groups
+constexpr int kMostRecords = 8000;       ///< layers, and the ends of groups
+constexpr size_t kRunLengths = 1;        ///< the compression by run lengths; 0 is none
 constexpr int kFarthestEdge = 1 << 24;   ///< largest coordinate of a layer
 
 struct BlendingKey {
@@ -33,7 +35,7 @@ constexpr const char* kAdjustments[] = {"SoCo", "GdFl", "PtFl", "brit", "levl", 
                                         "vibA", "hue ", "hue2", "blnc", "blwh", "phfl", "mixr",
                                         "clrL", "nvrt", "post", "thrs", "grdm", "selc"};
 
-struct Bounds {
+struct PsdBounds {
   int top = 0, left = 0, bottom = 0, right = 0;
   size_t width() const { return static_cast<size_t>(std::max(0, right - left)); }
   size_t height() const { return static_cast<size_t>(std::max(0, bottom - top)); }
@@ -48,24 +50,24 @@ enum class Section { layer, group, divider };
 
 /// What the file says about a layer or about the end of a group.
 struct Record {
-  Bounds bounds;
+  PsdBounds bounds;
   std::vector<Channel> channels;
   FileLayer layer;
   bool pass_through = false;  ///< a group whose layers blend with what is below the group
   Section section = Section::layer;
   bool skipped = false;  ///< has no pixels of its own
-  std::optional<Bounds> mask;
+  std::optional<PsdBounds> mask;
   std::uint8_t outside_mask = 255;
 };
 
-struct Canvas {
+struct PsdCanvas {
   size_t width = 0, height = 0;
   bool gray = false;
   std::string profile;
 };
 
 struct Psd {
-  Canvas canvas;
+  PsdCanvas canvas;
   std::vector<Record> records;  ///< from bottom to top
   std::string unreadable;       ///< why its layers cannot be read
 };
@@ -93,8 +95,10 @@ void append_utf8(std::string& text, unsigned code) {
 
 /// A text of UTF-16 code units after their count. Half surrogate pairs become question marks.
 std::string unicode_text(const FileBytes& file, size_t place, size_t end) {
-  const size_t count = file.big(place, 4);
-  if (count > (end - place - 4) / 2) file.damaged("a name is too long");
+  constexpr size_t kLongest = 255;
+  if (end - place < 4 || file.big(place, 4) > (end - place - 4) / 2)
+    file.damaged("a name is too long");
+  const size_t count = std::min(kLongest, file.big(place, 4));
   std::string text;
   for (size_t i = 0; i < count; ++i) {
     unsigned code = static_cast<unsigned>(file.big(place + 4 + 2 * i, 2));
@@ -110,9 +114,9 @@ std::string unicode_text(const FileBytes& file, size_t place, size_t end) {
   return text;
 }
 
-Bounds read_bounds(const FileBytes& file, size_t place) {
-  const Bounds bounds{file.big_signed(place), file.big_signed(place + 4),
-                      file.big_signed(place + 8), file.big_signed(place + 12)};
+PsdBounds read_bounds(const FileBytes& file, size_t place) {
+  const PsdBounds bounds{file.big_signed(place), file.big_signed(place + 4),
+                         file.big_signed(place + 8), file.big_signed(place + 12)};
   for (const int x : {bounds.top, bounds.left, bounds.bottom, bounds.right})
     if (std::abs(static_cast<long>(x)) > kFarthestEdge) file.damaged("a layer lies too far away");
   return bounds;
@@ -130,14 +134,15 @@ void read_block(const FileBytes& file, const std::string& key, size_t place, siz
                 Record& record) {
   FileLayer& layer = record.layer;
   if (key == "luni") layer.name = unicode_text(file, place, end);
-  if (key == "lyid") layer.entry = "id:" + std::to_string(file.big(place, 4));
-  if (key == "lsct" || key == "lsdk") {
+  const size_t length = end - place;
+  if (key == "lyid" && length >= 4) layer.entry = "id:" + std::to_string(file.big(place, 4));
+  if ((key == "lsct" || key == "lsdk") && length >= 4) {
     const size_t kind = file.big(place, 4);
     if (kind == 1 || kind == 2) record.section = Section::group;
     if (kind == 3) record.section = Section::divider;
-    if (end - place >= 12) record.pass_through = file.text(place + 8, 4) == "pass";
+    if (length >= 12) record.pass_through = file.text(place + 8, 4) == "pass";
   }
-  if (key == "iOpa") layer.opacity *= static_cast<double>(file.at(place)) / 255;
+  if (key == "iOpa" && length >= 1) layer.opacity *= static_cast<double>(file.at(place)) / 255;
   if (key == "lfx2" || key == "lrFX" || key == "lmfx") add_lost(layer.lost, "its effects");
   if (key == "vmsk" || key == "vsms") add_lost(layer.lost, "its vector mask");
   if (key == "SoLd" || key == "SoLE" || key == "PlLd")
@@ -233,13 +238,24 @@ Psd read_psd(const std::string& bytes, const std::string& name) {
   place += 4;
   const int count = std::abs(static_cast<int>(static_cast<std::int16_t>(file.big(place, 2))));
   place += 2;
+  if (count > kMostRecords) file.damaged("it has too many layers");
   for (int i = 0; i < count; ++i) psd.records.push_back(read_record(file, place));
+  std::map<std::string, int> ids;
+  for (const Record& record : psd.records)
+    if (record.section == Section::layer) ++ids[record.layer.entry];
   for (size_t i = 0; i < psd.records.size(); ++i) {
     Record& record = psd.records[i];
-    if (record.layer.entry.empty()) record.layer.entry = "layer:" + std::to_string(i);
+    std::string& entry = record.layer.entry;
+    const bool is_layer = record.section == Section::layer;
+    if (!is_layer)
+      entry.clear();
+    else if (entry.empty() || ids[entry] > 1)
+      entry = "layer:" + std::to_string(i);
     for (Channel& channel : record.channels) {
       file.need(place, channel.length);
       channel.place = place;
+      if (is_layer && channel.length >= 2 && file.big(place, 2) > kRunLengths)
+        psd.unreadable = "they are compressed by ZIP";
       place += channel.length;
     }
   }
@@ -275,6 +291,8 @@ std::vector<Node> tree_of(const Psd& psd, const FileBytes& file) {
 /// Adds the layers of a group, which inherit its name, opacity and visibility.
 void flatten(const std::vector<Node>& nodes, const FileLayer& group, FileLayers& all) {
   const auto lose = [&](const FileLayer& layer, const std::string& what) {
+    constexpr size_t kLongest = 2000;
+    if (all.warning.size() > kLongest) return;
     all.warning += (all.warning.empty() ? "" : "; ") + layer.name + ": " + what;
   };
   bool has_base = false;
@@ -282,7 +300,6 @@ void flatten(const std::vector<Node>& nodes, const FileLayer& group, FileLayers&
     FileLayer layer = node.record->layer;
     layer.name = group.name + layer.name;
     layer.visible = layer.visible && group.visible;
-    layer.opacity *= group.opacity;
     const bool is_clipped = layer.clipped;
     const bool is_group = node.record->section == Section::group;
     if (node.record->skipped) {
@@ -294,7 +311,9 @@ void flatten(const std::vector<Node>& nodes, const FileLayer& group, FileLayers&
       lose(layer, "its clipping");
       layer.clipped = false;
     }
-    if (!is_clipped) has_base = !is_group;
+    if (is_group || !is_clipped) has_base = !is_group;
+    // The opacity of the base, and thus of its groups, also applies to what is clipped to it.
+    if (!layer.clipped) layer.opacity *= group.opacity;
     if (!layer.lost.empty()) lose(layer, layer.lost + (is_group ? " (of the group)" : ""));
     if (!is_group) {
       all.layers.push_back(std::move(layer));
@@ -333,27 +352,25 @@ void unpack(const FileBytes& file, size_t place, size_t length, std::uint8_t* ro
 
 /// One channel in the part of its bounds that lies on the canvas.
 struct Plane {
-  Bounds kept;
+  PsdBounds kept;
   std::vector<std::uint8_t> values;
   std::uint8_t at(size_t column, size_t row) const { return values[row * kept.width() + column]; }
 };
 
-Bounds on_canvas(const Bounds& bounds, const Canvas& canvas) {
+PsdBounds on_canvas(const PsdBounds& bounds, const PsdCanvas& canvas) {
   const int width = static_cast<int>(canvas.width), height = static_cast<int>(canvas.height);
   return {std::clamp(bounds.top, 0, height), std::clamp(bounds.left, 0, width),
           std::clamp(bounds.bottom, 0, height), std::clamp(bounds.right, 0, width)};
 }
 
-Plane plane_of(const FileBytes& file, const Channel& channel, const Bounds& bounds,
-               const Canvas& canvas) {
+Plane plane_of(const FileBytes& file, const Channel& channel, const PsdBounds& bounds,
+               const PsdCanvas& canvas) {
   Plane plane{on_canvas(bounds, canvas), {}};
   const size_t width = bounds.width(), height = bounds.height(), kept = plane.kept.width();
   if (kept == 0 || plane.kept.height() == 0) return plane;
   if (channel.length < 2) file.damaged("a channel is missing");
   const size_t packed = file.big(channel.place, 2), end = channel.place + channel.length;
-  if (packed > 1)
-    throw Error(ErrorKind::bad_input,
-                file.name() + ": its layers are compressed by ZIP; save it without that");
+  if (packed > kRunLengths) file.damaged("its compression is unknown");
   const size_t first_row = static_cast<size_t>(plane.kept.top - bounds.top),
                first_column = static_cast<size_t>(plane.kept.left - bounds.left);
   plane.values.resize(kept * plane.kept.height());
@@ -387,8 +404,8 @@ const Channel* channel_of(const Record& record, int id) {
 }
 
 /// Multiplies the alpha by the layer's mask.
-void apply_mask(const FileBytes& file, const Record& record, const Canvas& canvas,
-                const Bounds& kept, Image& image) {
+void apply_mask(const FileBytes& file, const Record& record, const PsdCanvas& canvas,
+                const PsdBounds& kept, Image& image) {
   const Channel* channel = channel_of(record, -2);
   if (!record.mask || !channel) return;
   const Plane mask = plane_of(file, *channel, *record.mask, canvas);
@@ -419,9 +436,6 @@ FileLayers psd_layers(const std::string& bytes, const std::string& name) {
     return all;
   }
   flatten(tree_of(psd, file), {}, all);
-  std::set<std::string> entries;
-  for (const FileLayer& layer : all.layers)
-    if (!entries.insert(layer.entry).second) file.damaged("two layers have the same number");
   PixelBudget one;
   one.take(psd.canvas.width, psd.canvas.height, name);
   check_budget(&Budget::pixels,
@@ -440,7 +454,7 @@ Image decode_psd_layer(const std::string& bytes, const std::string& entry, const
   const Record& record = *found;
   pixels.take(psd.canvas.width, psd.canvas.height, name);
   Image image(static_cast<int>(psd.canvas.width), static_cast<int>(psd.canvas.height));
-  const Bounds kept = on_canvas(record.bounds, psd.canvas);
+  const PsdBounds kept = on_canvas(record.bounds, psd.canvas);
   const auto fill = [&](int id, std::initializer_list<int> components) {
     const Channel* channel = channel_of(record, id);
     if (!channel && id >= 0) file.damaged("a channel is missing");

@@ -18,11 +18,15 @@ void put(std::string& bytes, size_t value, int count) {
 void put_signed(std::string& bytes, int value, int count) {
   put(bytes, static_cast<size_t>(static_cast<long>(value)), count);
 }
-/// A section after its length.
-void put_section(std::string& bytes, const std::string& section) {
-  if (section.size() > size_t{std::numeric_limits<int>::max()})
+void check_size(const std::string& bytes) {
+  if (bytes.size() > size_t{std::numeric_limits<int>::max()})
     throw Error(ErrorKind::failed,
                 "the picture is too large for a PSD file; use OpenRaster (.ora)");
+}
+
+/// A section after its length.
+void put_section(std::string& bytes, const std::string& section) {
+  check_size(section);
   put(bytes, section.size(), 4);
   bytes += section;
 }
@@ -239,7 +243,9 @@ std::string encode_psd(const LayeredPicture& picture) {
   put(bytes, 0, 4);  // no color table
   put(bytes, 0, 4);  // no resources
   put_section(bytes, layer_section(picture));
-  return bytes + merged_data(picture.merged);
+  bytes += merged_data(picture.merged);
+  check_size(bytes);
+  return bytes;
 }
 
 }  // namespace holomorph

@@ -100,7 +100,7 @@ std::string spine_of(const MovingMeshes& moving, const std::vector<std::string>&
        SpineJson::array({{{"name", "default"}, {"attachments", std::move(attachments)}}})}};
   if (!deform.empty())
     document["animations"]["motion"]["attachments"]["default"] = std::move(deform);
-  return document.dump() + "\n";
+  return document.dump(-1, ' ', false, SpineJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace holomorph

@@ -189,10 +189,42 @@ TEST_CASE("Groups pass on their names, opacity and visibility, and what is lost 
   CHECK(!read.layers[1].visible);
   CHECK(read.layers[0].visible);
   CHECK(read.layers[2].clipped);
+  CHECK(read.layers[2].opacity == 1);  // the opacity of its base applies to it, too
   CHECK(!read.layers[4].clipped);
   for (const char* said :
        {"head/fx: its blending mode, its effects", "tint: the whole layer", "hat: its clipping"})
     CHECK_THAT(read.warning, Catch::Contains(said));
+}
+
+TEST_CASE("What is clipped to a group or above a clipped group is not clipped to another layer") {
+  const PsdLayer divider{.name = "</Layer group>", .blocks = section(3, "pass")};
+  const std::string bytes = psd_of({{.name = "A"},
+                                    divider,
+                                    {.name = "g1"},
+                                    {.name = "group", .clipped = 1, .blocks = section(1, "pass")},
+                                    {.name = "B", .clipped = 1}});
+  const FileLayers read = layers_of_file(bytes, "a.psd");
+  REQUIRE(read.layers.size() == 3);
+  for (const FileLayer& layer : read.layers) CHECK(!layer.clipped);
+  CHECK_THAT(read.warning, Catch::Contains("B: its clipping"));
+}
+
+TEST_CASE("Layers with the same id in a PSD file, or that of a group, are told apart") {
+  const auto id = [](size_t number) { return block("lyid", big(number, 4)); };
+  const std::string bytes =
+      psd_of({{.name = "</Layer group>", .blocks = section(3, "pass") + id(7)},
+              {.name = "a", .blocks = id(7)},
+              {.name = "g", .blocks = section(1, "pass") + id(7)},
+              {.name = "b", .blocks = id(8)},
+              {.name = "c", .blocks = id(8)}});
+  const FileLayers read = layers_of_file(bytes, "a.psd");
+  REQUIRE(read.layers.size() == 3);
+  CHECK(read.layers[1].entry != read.layers[2].entry);
+  for (const FileLayer& layer : read.layers) {
+    PixelBudget pixels;
+    CHECK(decode_layer(bytes, layer.entry, "a.psd", pixels).at(0, 0)[3] == 100);
+  }
+  CHECK(layers_of_file("\x89PNG not an archive", "a.psd").layers.empty());
 }
 
 TEST_CASE("The mask of a PSD layer cuts its pixels, unless it is disabled") {
