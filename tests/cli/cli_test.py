@@ -783,7 +783,11 @@ class CommandLine(Case):
         self.assertEqual(scene["layers"][0]["image"]["file"], "art.ora")
         self.assertNotIn("blending", self.good("new", "--force", path, "--out", self.path("plain.json")).stderr)
         blended = self.open_raster("blended.ora", '<layer name="a" src="data/a.png" composite-op="svg:multiply"/>', {"data/a.png": red})
-        self.assertIn("blending modes", self.good("new", "--force", blended, "--out", self.path("blended.json")).stderr)
+        self.assertNotIn("a:", self.good("new", "--force", blended, "--out", self.path("blended.json")).stderr)
+        with open(self.path("blended.json")) as file:
+            self.assertEqual(json.load(file)["layers"][0]["blending"], "multiply")
+        blended = self.open_raster("blended.ora", '<layer name="a" src="data/a.png" composite-op="svg:difference"/>', {"data/a.png": red})
+        self.assertIn("a: its blending mode", self.good("new", "--force", blended, "--out", self.path("blended.json")).stderr)
         self.assertEqual(seen.shape, (40, 60, 4))
         wanted = numpy.zeros((40, 60, 4), int)
         wanted[:, :] = (200, 0, 0, 255)

@@ -164,9 +164,9 @@ class Farm(Case):
         """The environment of a queue that runs every job at once, in place of sbatch."""
         os.makedirs(self.path("bin"), exist_ok=True)
         with open(self.path("bin/sbatch"), "w") as file:
-            file.write('#!/bin/bash\nfor word; do case $word in --array=*) tasks=${word#--array=};; esac; done\n'
-                       'echo "$*" >> "$0.calls"\nfor task in $(echo "${tasks:-x}" | tr , " "); do\n'
-                       '  SLURM_ARRAY_TASK_ID=$task bash "${@: -1}" >> "$0.log" 2>&1\ndone\necho "7;here"\n')
+            file.write('#!/bin/bash\necho "$*" >> "$0.calls"\n'
+                       'while [[ $1 = --* ]]; do case $1 in --array=*) tasks=${1#--array=};; esac; shift; done\nfor task in $(echo "${tasks:-x}" | tr , " "); do\n'
+                       '  SLURM_ARRAY_TASK_ID=$task bash "$@" >> "$0.log" 2>&1\ndone\necho "7;here"\n')
         os.chmod(self.path("bin/sbatch"), stat.S_IRWXU)
         return {**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]}
 
@@ -201,7 +201,16 @@ class Farm(Case):
         self.bad("farm", self.scene, "--engine", "deadline", "--out", self.frames, says="the engine is slurm")
         self.bad(*here, "--frames", "0..500", says="frames")
         self.bad(*here, "--film", self.path("f.xyz"), says="f.xyz")
+        self.bad(*here, "--film", self.path("f.png"), says="needs another format")
+        self.bad(*here, "--scale", "1000000", says="pixels")
         self.bad("farm", self.scene, "--engine", "slurm", "--out", self.path("f.doc"), says="f.doc")
+        self.bad("farm", self.scene, "--engine", "slurm", "--out", self.path('a"b.png'), says="a quote")
+        self.good(*here, "--film", self.path("f.WEBP"), "--rect", "-5,-5,60,50", "--only-write")
+        with open(self.path("the frames/f.sbatch")) as file:
+            script = file.read()
+        self.assertIn("--format webp", script)
+        self.assertIn("--rect -5,-5,60,50", script)
+        os.remove(self.path("the frames/f.sbatch"))
         self.bad("farm", self.scene, "--engine", "slurm", "--out", self.path("50%.png"), says="%")
         still = self.write("still.json", {**self.keyed_scene(), "keyframes": []})
         self.bad("farm", still, "--engine", "slurm", "--out", self.frames, says="keyframes")

@@ -365,7 +365,7 @@ class Files(Case):
                             (["export", self.scene, "--out", out, "--format", "obj", "--crop"], "--crop cannot be used with obj"),
                             (["export", self.scene, "--out", out, "--format", "svg", "--scale", "2"], "--scale cannot be used with svg"),
                             (["export", self.scene, "--out", out, "--format", "gif", "--time", "1"], "use --frames"),
-                            (["export", self.scene, "--out", out, "--format", "obj", "--frames", "all"], "use --time"),
+                            (["export", self.scene, "--out", out, "--format", "svg", "--frames", "all"], "use --time"),
                             (["export", self.scene, "--out", out, "--format", "doc", "--frames", "all"], "format 'doc'"),
                             (["new", self.path("red.png"), "--out", self.path("n.json"), "--margin", "-5"], "--margin"),
                             (["bench", "--filter", "zzz"], "zzz")):
