@@ -148,12 +148,12 @@ void print_losses(const Scene& scene) {
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     if (!is_shown(scene, i)) continue;
-    const char* lost = clip_base(scene, i)                  ? "clipping"
-                       : layer.blending != Blending::normal ? "blending mode"
-                                                            : nullptr;
-    if (lost)
+    const auto say = [&](const char* lost) {
       std::fprintf(stderr, "holomorph: %s: its %s is not kept\n",
                    printable(title_of_layer(scene, i)).c_str(), lost);
+    };
+    if (clip_base(scene, i)) say("clipping");
+    if (layer.blending != Blending::normal) say("blending mode");
   }
 }
 

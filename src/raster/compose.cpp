@@ -61,6 +61,15 @@ void blend_pixel(const std::array<float, 4>& over, std::array<float, 4>& under,
   if (!ink.clipped) under[3] = a + b - a * b;
 }
 
+/// How many whole pixels lie between the lower left corners of two pictures.
+struct Shift {
+  int right = 0, up = 0;
+};
+Shift shift_between(Complex from, Complex to, double pixels_per_unit) {
+  const Complex by = (to - from) * pixels_per_unit;
+  return {static_cast<int>(std::lround(by.real())), static_cast<int>(std::lround(by.imag()))};
+}
+
 /// The rows and columns of the pixels with some alpha: from the first to behind the last.
 struct PixelRange {
   int left = 0, top = 0, right = 0, bottom = 0;
@@ -138,15 +147,11 @@ RasterResult Composition::result() && {
 }
 
 void Composition::enlarge(Layer& under, const Layer& over) const {
-  // `corner` is the lower left corner of a picture, but rows are counted from the top.
-  const auto shift = [&](double by) {
-    return static_cast<int>(std::lround(by * pixels_per_unit_));
-  };
-  const int right = shift(over.corner.real() - under.corner.real()),
-            up = shift(over.corner.imag() - under.corner.imag());
-  const int left_edge = std::min(0, right), bottom_edge = std::min(0, up);
-  const int width = std::max(under.width, right + over.width) - left_edge,
-            height = std::max(under.height, up + over.height) - bottom_edge;
+  // Corners are those at the lower left, but rows are counted from the top.
+  const Shift shift = shift_between(under.corner, over.corner, pixels_per_unit_);
+  const int left_edge = std::min(0, shift.right), bottom_edge = std::min(0, shift.up);
+  const int width = std::max(under.width, shift.right + over.width) - left_edge,
+            height = std::max(under.height, shift.up + over.height) - bottom_edge;
   constexpr int kLargest = 16384;
   if (width > kLargest || height > kLargest)
     throw Error(ErrorKind::bad_input,
@@ -163,11 +168,8 @@ void Composition::enlarge(Layer& under, const Layer& over) const {
 }
 
 void Composition::blend(const Layer& over, Layer& under, const LayerInk& ink) const {
-  const auto shift = [&](double by) {
-    return static_cast<int>(std::lround(by * pixels_per_unit_));
-  };
-  const int left = shift(over.corner.real() - under.corner.real()),
-            top = under.height - shift(over.corner.imag() - under.corner.imag()) - over.height;
+  const Shift shift = shift_between(under.corner, over.corner, pixels_per_unit_);
+  const int left = shift.right, top = under.height - shift.up - over.height;
   const int rows = std::min(over.height, under.height - top),
             columns = std::min(over.width, under.width - left);
   for (int r = std::max(0, -top); r < rows; ++r) {

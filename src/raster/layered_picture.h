@@ -7,8 +7,8 @@
 namespace holomorph {
 
 /// The posed layers of a scene, hidden ones too, and the picture that they make together. The
-/// original pictures, if they are the background, become the lowest layer. Arguments and errors are those
-/// of picture_of(), except that the view is always View::image.
+/// original pictures, if they are the background, become the lowest layer. Arguments and errors are
+/// those of picture_of(). The view in `options` is ignored.
 LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
                                   const PictureOptions& options, const Pictures& other_pictures);
 

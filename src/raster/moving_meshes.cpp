@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/error.h"
 #include "core/mesh/coarser.h"
@@ -42,10 +41,8 @@ class LayerMesh {
     }
     if (!options.edited_only) drawn = drawn_mesh(drawn, layer.deformation);
     triangles_ = drawn->triangles;
-    if (!options.edited_only && picture) add_fringe(*picture);
+    if (!options.edited_only && picture) fringe_ = fringe_of(map_->mesh(), *picture);
   }
-
-  bool has_map() const { return map_ != nullptr; }
 
   /// The positions of the layer's own mesh in its own plane.
   const Points& positions(const Time& time) {
@@ -114,8 +111,6 @@ class LayerMesh {
     triangles_ = {{0, 1, 2}, {0, 2, 3}};
   }
 
-  void add_fringe(const Image& picture) { fringe_ = fringe_of(map_->mesh(), picture); }
-
   const Layer& layer_;
   std::unique_ptr<TimedMap> map_;  ///< null without a cage
   Points rest_;
@@ -144,16 +139,17 @@ class Exporter {
  public:
   Exporter(const Scene& scene, const Image* picture, const Pictures& others,
            const MovingMeshOptions& options)
-      : scene_(scene), options_(options) {
+      : scene_(scene),
+        picture_(picture),
+        others_(others),
+        options_(options),
+        layers_(scene.layers.size()) {
     for (size_t i = 0; i < scene.layers.size(); ++i) {
-      const Image* own = i == scene.edited ? picture : others.of(*scene.layers[i]);
-      layers_.push_back(std::make_unique<LayerMesh>(*scene.layers[i], scene.animation.linear_blend,
-                                                    own, options));
-      MovingMesh mesh = layers_[i]->mesh();
-      const bool wanted = options.edited_only ? i == scene.edited : is_shown(scene, i);
-      if (!wanted || mesh.rest.empty()) continue;
+      if (options.edited_only ? i != scene.edited : !is_shown(scene, i)) continue;
+      MovingMesh mesh = layer(i).mesh();
+      if (mesh.rest.empty()) continue;
       mesh.name = title_of_layer(scene, i);
-      if (own) mesh.texture = texture_of(*own);
+      if (const Image* own = picture_of_layer(i)) mesh.texture = texture_of(*own);
       meshes_.push_back(std::move(mesh));
       exported_.push_back(i);
     }
@@ -164,7 +160,7 @@ class Exporter {
   void add_frame(const Time& time) {
     for (size_t k = 0; k < meshes_.size(); ++k) {
       const size_t i = exported_[k];
-      Points points = layers_[i]->exported(time);
+      Points points = layer(i).exported(time);
       frame_error_ = std::max(frame_error_, error(i, time, points));
       const Similarity placed = placement(i, time);
       for (Complex& z : points) z = placed(z);
@@ -195,21 +191,36 @@ class Exporter {
   }
 
  private:
-  double error(size_t layer, const Time& time, const Points& points) {
-    return std::abs(placement(layer, time).factor) * layers_[layer]->distance(time, points);
+  const Image* picture_of_layer(size_t number) const {
+    return number == scene_.edited ? picture_ : others_.of(*scene_.layers[number]);
   }
 
-  Similarity placement(size_t layer, const Time& time) {
+  /// A layer, prepared when it is first needed: hidden layers may carry others.
+  LayerMesh& layer(size_t number) {
+    std::unique_ptr<LayerMesh>& known = layers_[number];
+    if (!known)
+      known = std::make_unique<LayerMesh>(*scene_.layers[number], scene_.animation.linear_blend,
+                                          picture_of_layer(number), options_);
+    return *known;
+  }
+
+  double error(size_t number, const Time& time, const Points& points) {
+    return std::abs(placement(number, time).factor) * layer(number).distance(time, points);
+  }
+
+  Similarity placement(size_t number, const Time& time) {
     if (options_.edited_only) return {};
-    return placement_of(scene_, layer, [&](size_t child) {
+    return placement_of(scene_, number, [&](size_t child) {
       const Layer& it = *scene_.layers[child];
-      return layers_[*parent_of(scene_, it)]->motion(time, *it.attachment);
+      return layer(*parent_of(scene_, it)).motion(time, *it.attachment);
     });
   }
 
   const Scene& scene_;
+  const Image* picture_;  ///< of the edited layer
+  const Pictures& others_;
   const MovingMeshOptions& options_;
-  std::vector<std::unique_ptr<LayerMesh>> layers_;
+  std::vector<std::unique_ptr<LayerMesh>> layers_;  ///< null until needed
   std::vector<MovingMesh> meshes_;
   std::vector<size_t> exported_;  ///< the layer of each mesh
   double frame_error_ = 0, error_ = 0;

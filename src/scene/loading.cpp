@@ -193,7 +193,7 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
   FileLayers in_file;
   if (may_have_layers(path)) in_file = layers_of_file(read_file(path), path.string());
   if (!in_file.warning.empty())
-    loaded.warning = "Not kept of this file: " + in_file.warning + ". ";
+    loaded.warning = "Not kept from this file: " + in_file.warning + ". ";
   if (in_file.layers.empty()) {
     loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
     // Parts of a photograph that move away leave gaps, which the original fills.

@@ -46,7 +46,8 @@ class Files(Case):
                     (".npy", ["coordinates", self.scene, "--points", self.points]),
                     (".png", ["render", self.scene]),
                     (".json", ["new", self.path("red.png")])]
-        for format in ("obj", "svg", "npy", "png", "stmap", "unwarp-map", "unwarp", "webp", "gif", "apng", "mp4", "webm"):
+        for format in ("obj", "svg", "npy", "png", "stmap", "unwarp-map", "unwarp", "glb", "mdd", "pc2", "psd", "ora",
+                       "webp", "gif", "apng", "mp4", "webm"):
             extension = {"stmap": "npy", "unwarp-map": "exr", "unwarp": "png"}.get(format, format)
             commands.append(("." + extension, ["export", self.scene, "--format", format]))
         return commands

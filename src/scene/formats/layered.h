@@ -43,8 +43,8 @@ struct DrawnLayer {
   Blending blending = Blending::normal;
   bool clipped = false;
 };
-/// A picture with layers, from bottom to top, and how it looks as a whole. The size of `merged` is
-/// that of the canvas.
+/// A picture with layers, from bottom to top. `merged` shows all of them together, and has the size
+/// of the canvas.
 struct LayeredPicture {
   std::vector<DrawnLayer> layers;
   Image merged;

@@ -205,8 +205,9 @@ std::string obj_of(const Surface& surface, const Points& texture,
 }
 
 std::string material_of(const std::string& texture_file) {
-  return std::string("newmtl ") + kMaterial + "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd " +
-         texture_file + "\n";
+  const std::string text =
+      std::string("newmtl ") + kMaterial + "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\n";
+  return texture_file.empty() ? text : text + "map_Kd " + texture_file + "\n";
 }
 
 }  // namespace holomorph

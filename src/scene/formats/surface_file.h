@@ -25,7 +25,8 @@ std::string texture_of_materials(const std::string& text);
 /// The OBJ text of a surface with these texture coordinates. It refers to the material library in
 /// the given file.
 std::string obj_of(const Surface& surface, const Points& texture, const std::string& material_file);
-/// A material library with one material that displays a texture file unchanged.
+/// A material library with one material that displays a texture file unchanged; white if the name
+/// is empty.
 std::string material_of(const std::string& texture_file);
 
 }  // namespace holomorph
