@@ -28,7 +28,19 @@ class PictureMaker::LayerMaker {
       : layer_(layer),
         deformation_(layer.deformation),
         linear_blend_(linear_blend),
-        source_(source) {}
+        source_(source) {
+    if (source) extent_ = {double(source->width), double(source->height)};
+  }
+
+  void show(const Image& picture) {
+    const auto& image = layer_.image;
+    if (!source_)
+      extent_ = image && image->width > 0 && image->height > 0
+                    ? Extent{double(image->width), double(image->height)}
+                    : Extent{double(picture.width), double(picture.height)};
+    source_ = &picture;
+    fringe_.reset();
+  }
 
   const Image* source() const { return source_; }
   bool visible() const { return layer_.visible && source_; }
@@ -62,6 +74,9 @@ class PictureMaker::LayerMaker {
     }
     return rasterized(job);
   }
+
+  /// The size of the picture's rectangle.
+  const Extent& extent() const { return extent_; }
 
   /// The undeformed picture.
   RasterResult original(const PictureOptions& options, double top) const {
@@ -105,7 +120,7 @@ class PictureMaker::LayerMaker {
       std::ranges::copy(around, points.begin() + count);
     }
     if (!with_picture || !source_) return points;
-    const double w = source_->width, h = source_->height;
+    const auto [w, h] = extent_;
     const Index count = points.size();
     points.conservativeResize(count + 4);
     points.tail(4) << Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h);
@@ -113,7 +128,7 @@ class PictureMaker::LayerMaker {
   }
   void include_picture(Box& box, const Similarity& placement) const {
     if (!source_) return;
-    const double w = source_->width, h = source_->height;
+    const auto [w, h] = extent_;
     for (const Complex& z : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
       box.include(placement(z));
   }
@@ -143,6 +158,7 @@ class PictureMaker::LayerMaker {
   RasterJob job_of(const PictureOptions& options, double top) const {
     RasterJob job;
     job.source = source_;
+    if (is_resized()) job.extent = extent_;
     job.view = options.view;
     job.pixels_per_unit = options.scale;
     job.region = options.region;
@@ -164,14 +180,25 @@ class PictureMaker::LayerMaker {
   /// The fringe of the picture; null if it has none. The map must have been prepared.
   const Fringe* fringe() {
     if (!source_ || !prepared_) return nullptr;
-    if (!fringe_) fringe_ = fringe_of(*prepared_->mesh, *source_);
+    if (!fringe_) fringe_ = new_fringe();
     return fringe_->get();
+  }
+
+  std::shared_ptr<const Fringe> new_fringe() const {
+    if (!is_resized()) return fringe_of(*prepared_->mesh, *source_);
+    if (is_opaque(*source_)) return nullptr;  // saves resizing the frames of a film
+    return fringe_of(*prepared_->mesh, original({}, extent_.height).image);
+  }
+
+  bool is_resized() const {
+    return source_ && (source_->width != extent_.width || source_->height != extent_.height);
   }
 
   const Layer& layer_;
   const Deformation& deformation_;
   bool linear_blend_;
   const Image* source_;
+  Extent extent_;  ///< of the picture's rectangle
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
   std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
@@ -193,6 +220,10 @@ PictureMaker::PictureMaker(const Scene& scene, const Image* source, const Pictur
 
 PictureMaker::~PictureMaker() = default;
 
+void PictureMaker::show(const Image& picture) {
+  layers_[scene_.edited]->show(picture);
+}
+
 Box PictureMaker::rectangle() const {
   Box box;
   for (size_t i = 0; i < layers_.size(); ++i)
@@ -204,8 +235,7 @@ Box PictureMaker::rectangle() const {
 PictureMaker::Frame PictureMaker::frame_of(const PictureOptions& options) const {
   Frame frame{options};
   if (options.view != View::image || !has_layers(scene_)) {
-    const Image* source = layers_[scene_.edited]->source();
-    frame.top = source ? source->height : 0;
+    frame.top = layers_[scene_.edited]->extent().height;
     return frame;
   }
   const Box rectangle = this->rectangle();

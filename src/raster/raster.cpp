@@ -51,7 +51,7 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
 
 /// The bounding box of the source's rectangle where the job places it.
 Box placed_rectangle(const RasterJob& job) {
-  const double w = job.source->width, h = job.source->height;
+  const auto [w, h] = job.source_extent();
   Box box;
   for (const Complex& corner : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
     box.include(job.placement(corner));
@@ -61,7 +61,7 @@ Box placed_rectangle(const RasterJob& job) {
 /// The bounding box of the source rectangle's image under the map, computed from the mesh vertices
 /// inside the rectangle and the points where mesh edges cross its border.
 Box image_of_rectangle(const RasterJob& job, const Mesh& mesh, std::span<const Complex> at) {
-  const double w = job.source->width, h = job.source->height;
+  const double w = job.source_extent().width, h = job.source_extent().height;
   const auto depth = [&](Complex z) {
     return std::array{z.real(), w - z.real(), z.imag(), h - z.imag()};
   };
@@ -94,7 +94,8 @@ RasterResult rasterized(const RasterJob& job) {
   const double scale = job.pixels_per_unit;
   if (!(scale > 0) || !std::isfinite(scale))
     throw Error(ErrorKind::bad_input, "the scale must be a positive number");
-  const double height = job.source ? job.source->height : 0, top_edge = job.top.value_or(height);
+  const double width = job.source_extent().width, height = job.source_extent().height;
+  const double top_edge = job.top.value_or(height);
   constexpr double kLargest = 16384;
   const auto check_size = [&](double width, double height) {
     if (!(width <= kLargest && height <= kLargest))
@@ -102,12 +103,12 @@ RasterResult rasterized(const RasterJob& job) {
                   "the picture would have more than 16384 pixels on a side; choose a smaller "
                   "scale");
   };
-  if (job.source) check_size(job.source->width * scale, height * scale);
+  if (job.source) check_size(width * scale, height * scale);
   constexpr double kRounding = 1e-3;  // tolerance for single-precision operators
   PixelRect least{0, 0, 0, 0};
   if (job.source) {
     const int top = static_cast<int>(std::floor((top_edge - height) * scale));
-    least = {0, top, std::max(1, static_cast<int>(std::lround(job.source->width * scale))),
+    least = {0, top, std::max(1, static_cast<int>(std::lround(width * scale))),
              top_edge == height ? std::max(1, static_cast<int>(std::lround(height * scale)))
                                 : static_cast<int>(std::ceil(top_edge * scale)) - top};
   }

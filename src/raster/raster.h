@@ -10,6 +10,11 @@
 
 namespace holomorph {
 
+/// The size of a picture's rectangle in the plane.
+struct Extent {
+  double width = 0, height = 0;
+};
+
 /// What to draw. The mesh's vertices move to `positions`; `source` is sampled once, at rest
 /// coordinates. The picture outside the rest cage does not move.
 struct RasterJob {
@@ -20,16 +25,23 @@ struct RasterJob {
   const Mesh* fringe = nullptr;
   std::span<const Complex> fringe_positions;
   const Image* source = nullptr;  ///< may be null for heat maps and checkers
+  std::optional<Extent> extent;   ///< of the source; if not set, a pixel is one unit wide
   View view = View::image;
   Eigen::VectorXd heat;  ///< one value per mesh vertex, for heat views
   HeatScale scale;
-  double pixels_per_unit = 1;  ///< output pixels per image pixel
+  double pixels_per_unit = 1;  ///< output pixels per unit of the plane
   bool surroundings = true;    ///< also draw the source outside the rest cage
   Similarity placement = {};   ///< moves everything that is drawn
   bool crop = false;           ///< crop to the source's rectangle; otherwise crop nothing
   std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
-  std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the source's height
+  std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the source's top
   int threads = 0;             ///< if 0, one per processor core
+
+  /// The size of the source's rectangle; zero without a source.
+  Extent source_extent() const {
+    if (!source) return {};
+    return extent.value_or(Extent{double(source->width), double(source->height)});
+  }
 };
 
 /// A picture and the position of its lower left corner in the plane.

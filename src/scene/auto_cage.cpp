@@ -41,7 +41,7 @@ struct Part {
 /// None if the picture has no content or no transparency. Around the part, there is room for
 /// distances up to `reach` pixels and up to a fraction of the part's size.
 std::optional<Part> part_of(const Image& image, double fraction, double reach) {
-  if (!has_transparency(image)) return {};
+  if (is_opaque(image)) return {};
   const std::vector<std::uint8_t> part = largest_part(image);
   if (part.empty()) return {};
   const auto is_set = [&](int c, int r) {

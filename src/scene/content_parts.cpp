@@ -84,7 +84,7 @@ std::vector<std::uint8_t> largest_part(const Image& image) {
 
 std::vector<Box> smaller_parts(const Image& image) {
   constexpr size_t kSpeck = 1000;  // parts that are so many times smaller cannot be seen
-  if (!has_transparency(image)) return {};
+  if (is_opaque(image)) return {};
   Parts parts(content_of(image));
   std::map<size_t, Box> boxes;
   for (size_t i = 0; i < parts.runs.size(); ++i) {

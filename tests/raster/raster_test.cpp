@@ -229,6 +229,57 @@ TEST_CASE("Pictures that are too large or empty are refused") {
             .image.width == 10);
 }
 
+TEST_CASE("A picture of another size fills the same rectangle") {
+  for (const unsigned seed : seeds_of("another size", {1, 2})) {
+    std::mt19937 random(seed);
+    const int width = 60 + static_cast<int>(random() % 60),
+              height = 50 + static_cast<int>(random() % 60);
+    // Colors that are linear in the place, so that no resolution is better than another one.
+    const auto gradient = [&](int columns, int rows) {
+      Image image(columns, rows);
+      for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < columns; ++c) {
+          std::uint8_t* pixel = image.at(c, r);
+          pixel[0] = static_cast<std::uint8_t>(std::lround(250 * (c + 0.5) / columns));
+          pixel[1] = static_cast<std::uint8_t>(std::lround(250 * (r + 0.5) / rows));
+          pixel[3] = 255;
+        }
+      return image;
+    };
+    Deformation deformation;
+    deformation.method = "harmonic";
+    deformation.rest =
+        polygon_cage({{8, 8}, {width - 8.0, 8}, {width - 8.0, height - 8.0}, {8, height - 8.0}});
+    deformation.pose = deformation.rest;
+    for (Points& segment : deformation.pose.segments)
+      for (Complex& z : segment) z += 6.0 * random_complex(random);
+    const Scene scene = scene_of(deformation);
+    const Image usual = gradient(width, height);
+    const PictureOptions options{.crop = true};
+    const RasterResult expected = picture_of(scene, &usual, options);
+    PictureMaker maker(scene, &usual);
+    for (int i = 0; i < 4; ++i) {
+      const Image other =
+          gradient(40 + static_cast<int>(random() % 200), 40 + static_cast<int>(random() % 200));
+      INFO("seed " << seed << ": " << width << " x " << height << " by " << other.width << " x "
+                   << other.height);
+      maker.show(other);
+      const RasterResult drawn = maker.picture(options);
+      REQUIRE(drawn.image.width == width);
+      REQUIRE(drawn.image.height == height);
+      REQUIRE(drawn.corner == expected.corner);
+      // Outermost pixels are constant, so gradients are not linear there.
+      const int rim = 4 + std::max(width / 40, height / 40);
+      for (int r = rim; r < height - rim; ++r)
+        for (int c = rim; c < width - rim; ++c)
+          for (int k = 0; k < 4; ++k)
+            REQUIRE(std::abs(drawn.image.at(c, r)[k] - expected.image.at(c, r)[k]) <= 2);
+    }
+    maker.show(usual);
+    CHECK(maker.picture(options).image.pixels == expected.image.pixels);
+  }
+}
+
 TEST_CASE("Bleeding copies the nearest covered pixel within reach and keeps all other pixels") {
   std::mt19937 random(5);
   const int w = 61, h = 47;

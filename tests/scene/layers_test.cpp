@@ -385,7 +385,7 @@ TEST_CASE("Pictures are written in the format of their file name and read back")
   const Image webp = written("a.WEBP"), jpeg = written("a.jpeg");
   REQUIRE(webp.width == image.width);
   REQUIRE(jpeg.height == image.height);
-  CHECK_FALSE(has_transparency(jpeg));
+  CHECK(is_opaque(jpeg));
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c) {
       CHECK(webp.at(c, r)[3] == image.at(c, r)[3]);

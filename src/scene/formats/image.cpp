@@ -143,10 +143,4 @@ const PictureFormat& picture_format_of(const Path& file) {
   return *found;
 }
 
-bool has_transparency(const Image& image) {
-  for (size_t i = 3; i < image.pixels.size(); i += 4)
-    if (image.pixels[i] != 255) return true;
-  return false;
-}
-
 }  // namespace holomorph

@@ -72,7 +72,4 @@ std::string format_extension(const Path& file);
 /// other extensions.
 const PictureFormat& picture_format_of(const Path& file);
 
-/// Whether any pixel's alpha is below 255.
-bool has_transparency(const Image& image);
-
 }  // namespace holomorph

@@ -1,0 +1,215 @@
+// A frei0r filter for ffmpeg, melt, Kdenlive and Shotcut: warps each frame of a film as the picture
+// of a scene, or draws the scene over it.
+#include <dlfcn.h>
+#include <frei0r.h>
+
+#include <cstdio>
+#include <cstring>
+#include <mutex>
+
+#include "core/error.h"
+#include "frei0r/host_time.h"
+#include "raster/compose.h"
+#include "raster/picture.h"
+#include "scene/keyframes.h"
+#include "scene/loading.h"
+
+using namespace holomorph;
+
+namespace {
+
+enum Parameter { kScene, kRate, kMode, kParameters };
+
+/// A scene that is ready to draw.
+class ScenePlayer {
+ public:
+  ScenePlayer(const Path& file, std::optional<double> rate)
+      : loaded_(load_scene(file, {.pictures_may_be_missing = true})),
+        maker_(loaded_.scene, loaded_.image(), loaded_.pictures),
+        plays_(has_playing_keys(loaded_.scene)),
+        time_(rate.value_or(loaded_.scene.animation.frames_per_second), rate.has_value(),
+              dlsym(RTLD_DEFAULT, "mlt_factory_init") != nullptr) {}
+
+  /// The frame, warped as the picture of the edited layer. The scene's lowest picture is stretched
+  /// to the frame's size.
+  Image warped(Image frame, double passed) {
+    const int width = frame.width, height = frame.height;
+    frame_ = std::move(frame);
+    maker_.show(frame_);
+    const Box box = maker_.rectangle();
+    const double scale = width / box.width();
+    const int rows = std::max(1, static_cast<int>(std::lround(box.height() * scale)));
+    Image drawn = part({box.left, box.top}, scale, width, rows, passed);
+    if (rows == height) return drawn;
+    RasterJob job;
+    job.source = &drawn;
+    job.extent = Extent{double(width), double(height)};
+    return rasterized(job).image;
+  }
+
+  /// The scene drawn over a frame. The lowest picture is as large as fits, and in the middle.
+  Image composed(Image frame, double passed) {
+    const int width = frame.width, height = frame.height;
+    const Box box = maker_.rectangle();
+    if (box.empty()) return frame;  // nothing is visible
+    const double scale = std::min(width / box.width(), height / box.height());
+    const double left = std::floor((width - box.width() * scale) / 2),
+                 top = std::floor((height - box.height() * scale) / 2);
+    Composition all(1);
+    all.add({std::move(frame), {}});
+    all.add(
+        {part({box.left - left / scale, box.top + top / scale}, scale, width, height, passed), {}});
+    return std::move(all).result().image;
+  }
+
+ private:
+  /// The part of the scene's picture with this many pixels whose top left corner is nearest to a
+  /// point.
+  Image part(Complex corner, double scale, int width, int height, double passed) {
+    const double inside = 1e-3 / scale;  // rounding errors must not add a row of pixels
+    PictureOptions options;
+    options.scale = scale;
+    options.region = Box{corner.real() + inside, corner.imag() - height / scale + inside,
+                         corner.real() + width / scale - inside, corner.imag() - inside};
+    const double time = time_.seconds(passed);
+    if (plays_) options.time = time;
+    RasterResult drawn = maker_.picture(options);
+    if (drawn.image.width == width && drawn.image.height == height) return std::move(drawn.image);
+    Image cut(width, height);  // the corner lies inside a pixel
+    const size_t row = 4 * static_cast<size_t>(std::min(width, drawn.image.width));
+    for (int y = 0; y < std::min(height, drawn.image.height); ++y)
+      std::memcpy(cut.at(0, y), drawn.image.at(0, y), row);
+    return cut;
+  }
+
+  LoadedScene loaded_;
+  PictureMaker maker_;
+  bool plays_;
+  HostTime time_;
+  Image frame_;
+};
+
+/// One use of the filter in a host.
+class Filter {
+ public:
+  Filter(int width, int height) : width_(width), height_(height) {}
+
+  /// Copies a parameter from the host.
+  void set(int parameter, f0r_param_t value) {
+    const std::lock_guard lock(mutex_);
+    if (parameter == kMode) {
+      mode_ = *static_cast<double*>(value);
+      return;
+    }
+    std::string& text = parameter == kScene ? scene_ : rate_;
+    const char* given = *static_cast<char**>(value);
+    if (!given || text == given) return;
+    text = given;
+    player_.reset();
+    failed_ = false;
+  }
+
+  /// Gives a parameter to the host.
+  void get(int parameter, f0r_param_t value) {
+    const std::lock_guard lock(mutex_);
+    if (parameter == kMode)
+      *static_cast<double*>(value) = mode_;
+    else
+      *static_cast<char**>(value) = (parameter == kScene ? scene_ : rate_).data();
+  }
+
+  /// Draws a frame. If that fails, the frame stays as it is, and the reason is printed once.
+  void update(double time, const std::uint32_t* in, std::uint32_t* out) {
+    const std::lock_guard lock(mutex_);
+    const size_t bytes = 4 * static_cast<size_t>(width_) * static_cast<size_t>(height_);
+    if (in != out) std::memcpy(out, in, bytes);
+    if (failed_ || scene_.empty()) return;
+    try {
+      if (!player_) player_.emplace(scene_, frames_per_second());
+      Image frame(width_, height_);
+      std::memcpy(frame.pixels.data(), in, bytes);
+      const Image drawn = mode_ < 0.5 ? player_->warped(std::move(frame), time)
+                                      : player_->composed(std::move(frame), time);
+      std::memcpy(out, drawn.pixels.data(), bytes);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "holomorph: %s\n", error.what());
+      failed_ = true;
+    }
+  }
+
+ private:
+  /// The rate that the host gives, such as "25" or "30000/1001"; none if it gives none.
+  std::optional<double> frames_per_second() const {
+    if (rate_.empty() || rate_ == "0") return {};
+    double frames = 0, seconds = 1;
+    int end = 0, whole = 0;
+    const int read = std::sscanf(rate_.c_str(), "%lf%n/%lf%n", &frames, &end, &seconds, &whole);
+    if (read == 2) end = whole;
+    const double rate = frames / seconds;
+    if (read < 1 || end != static_cast<int>(rate_.size()) || !(rate > 0 && rate <= 1000))
+      throw Error(ErrorKind::bad_input, "the frame rate '" + rate_ +
+                                            "' is not a number of frames per second, such as 25 or "
+                                            "30000/1001");
+    return rate;
+  }
+
+  int width_, height_;
+  std::mutex mutex_;
+  std::string scene_, rate_ = "0";
+  double mode_ = 0;
+  std::optional<ScenePlayer> player_;
+  bool failed_ = false;  ///< and the reason was printed
+};
+
+}  // namespace
+
+#pragma GCC visibility push(default)
+extern "C" {
+
+int f0r_init() {
+  return 1;
+}
+void f0r_deinit() {}
+
+void f0r_get_plugin_info(f0r_plugin_info_t* info) {
+  *info = {"Holomorph",
+           "The Holomorph developers",
+           F0R_PLUGIN_TYPE_FILTER,
+           F0R_COLOR_MODEL_RGBA8888,
+           FREI0R_MAJOR_VERSION,
+           0,
+           1,
+           kParameters,
+           "Warps each frame as the picture of a Holomorph scene, or draws the scene over it"};
+}
+
+void f0r_get_param_info(f0r_param_info_t* info, int parameter) {
+  static constexpr f0r_param_info_t kInfo[kParameters] = {
+      {"Scene", F0R_PARAM_STRING, "The file of a Holomorph scene (.json)"},
+      {"Frame rate", F0R_PARAM_STRING,
+       "Frames per second of the film, such as 25 or 30000/1001; 0 if the host passes exact times"},
+      {"Mode", F0R_PARAM_DOUBLE,
+       "0 warps the frame as the picture of the scene's edited layer, 1 draws the scene over it"}};
+  if (parameter >= 0 && parameter < kParameters) *info = kInfo[parameter];
+}
+
+f0r_instance_t f0r_construct(unsigned int width, unsigned int height) {
+  return new Filter(static_cast<int>(width), static_cast<int>(height));
+}
+void f0r_destruct(f0r_instance_t instance) {
+  delete static_cast<Filter*>(instance);
+}
+
+void f0r_set_param_value(f0r_instance_t instance, f0r_param_t value, int parameter) {
+  static_cast<Filter*>(instance)->set(parameter, value);
+}
+void f0r_get_param_value(f0r_instance_t instance, f0r_param_t value, int parameter) {
+  static_cast<Filter*>(instance)->get(parameter, value);
+}
+
+void f0r_update(f0r_instance_t instance, double time, const std::uint32_t* in, std::uint32_t* out) {
+  static_cast<Filter*>(instance)->update(time, in, out);
+}
+
+}  // extern "C"
+#pragma GCC visibility pop

@@ -1,0 +1,151 @@
+# The frei0r filter in ffmpeg: its frames have the bits of `render`.
+import ctypes
+import os
+import random
+import subprocess
+import sys
+import unittest
+
+import numpy
+from PIL import Image
+
+FOLDER = sys.argv[3]
+sys.path.append(os.path.join(sys.argv[2], "tests/cli"))
+from case import Case  # noqa: E402
+
+RATE = 25
+
+
+class Frei0r(Case):
+    def scene(self, rng, size, layers=1):
+        """A picture of this size whose cage moves for four seconds, and small pictures on top of it."""
+        w, h = size
+        entries = []
+        for i in range(layers):
+            pw, ph = (w, h) if i == 0 else (w // 3, h // 4)
+            picture = Image.effect_mandelbrot((pw, ph), (-2, -1, 1, 1), 30 + i).convert("RGB")
+            picture = Image.merge("RGB", (picture.getchannel(0), Image.linear_gradient("L").resize((pw, ph)),
+                                          Image.effect_noise((pw, ph), 60)))
+            picture.save(self.path(f"{i}.png"))
+            cage = [[pw * x, ph * y] for x, y in ((.2, .1), (.8, .15), (.9, .8), (.5, .6), (.15, .85))]
+            keys = [{"time": t, "pose": {"cage": [[[x + rng.uniform(-.08, .08) * pw, y + rng.uniform(-.08, .08) * ph]]
+                                                  for x, y in cage]}} for t in (0, 1.3, 2.5, 4)]
+            entries.append({"name": f"layer {i}", "image": {"file": f"{i}.png"}, "cage": {"rest": [[p] for p in cage]},
+                            "method": {"id": rng.choice(["cage", "harmonic", "mean_value"])}, "keyframes": keys})
+        return self.write("scene.json", {"format": "holomorph", "version": 2, "animation": {"frames_per_second": RATE},
+                                         "layers": entries, "edited": 0})
+
+    def filtered(self, size, frames, parameters, source=None, words=(), more="", check=True):
+        """The frames that ffmpeg makes of a picture, or of transparent frames, and what it prints."""
+        w, h = size
+        given = (["-loop", "1", "-framerate", str(RATE), "-i", source] if source else
+                 ["-f", "lavfi", "-i", f"color=black@0:s={w}x{h}:r={RATE},format=rgba"])
+        result = subprocess.run(
+            ["ffmpeg", "-nostdin", "-loglevel", "error", *given, *words, "-frames:v", str(frames), "-vf",
+             f"format=rgba{more},frei0r=holomorph:{parameters}", "-f", "rawvideo", "-pix_fmt", "rgba", "-"],
+            capture_output=True, env=dict(os.environ, FREI0R_PATH=FOLDER))
+        said = result.stderr.decode()
+        if check:
+            self.assertEqual(said, "")
+        pixels = numpy.frombuffer(result.stdout, numpy.uint8)
+        self.assertEqual(len(pixels), 4 * w * h * frames, said)
+        return pixels.reshape(frames, h, w, 4), said
+
+    def rendered(self, scene, first, last):
+        self.good("render", scene, "--crop", "--frames", f"{first}..{last}", "--out", self.path("f.png"), "--force")
+        return [numpy.asarray(Image.open(self.path(f"f-{i:04}.png")).convert("RGBA")) for i in range(first, last + 1)]
+
+    def assert_same(self, frames, expected):
+        self.assertEqual(len(frames), len(expected))
+        for i, (a, b) in enumerate(zip(frames, expected)):
+            self.assertTrue((a == b).all(), f"frame {i}")
+
+    def test_frames_have_the_bits_of_render_in_both_modes(self):
+        for size in ((1280, 720), (322, 242)):  # rows of 322 pixels are padded, and then ffmpeg passes no times
+            seed = random.randrange(1 << 30)
+            with self.subTest(size=size, seed=seed):
+                scene = self.scene(random.Random(seed), size, layers=2)
+                expected = self.rendered(scene, 0, 99)
+                self.assertTrue((expected[0] != expected[50]).any())
+                self.assert_same(self.filtered(size, 100, f"{scene}|{RATE}|0", self.path("0.png"))[0], expected)
+                self.assert_same(self.filtered(size, 100, f"{scene}|{RATE}|1")[0], expected)
+
+    def test_the_rate_of_the_scene_is_the_default(self):
+        scene = self.scene(random.Random(3), (322, 242))
+        self.assert_same(self.filtered((322, 242), 30, scene, self.path("0.png"))[0], self.rendered(scene, 0, 29))
+
+    def test_frames_from_the_middle_of_a_film_show_their_own_time(self):
+        size = (320, 240)
+        scene = self.scene(random.Random(4), size)
+        expected = self.rendered(scene, 20, 40)
+        for rate in ("25", "0", "50/2"):
+            frames, _ = self.filtered(size, 21, f"{scene}|{rate}|0", self.path("0.png"), more=",trim=start_frame=20")
+            self.assert_same(frames, expected)
+
+    def test_frames_of_another_size_are_warped_alike(self):
+        scene = self.scene(random.Random(5), (320, 240))
+        smooth = Image.merge("RGB", (Image.linear_gradient("L"), Image.linear_gradient("L").rotate(90), Image.radial_gradient("L")))
+        smooth.resize((320, 240), Image.BICUBIC).save(self.path("0.png"))
+        expected = self.rendered(scene, 30, 30)[0].astype(int)
+        for w, h in ((640, 480), (160, 120), (400, 240)):
+            smooth.resize((w, h), Image.BICUBIC).save(self.path("other.png"))
+            frames, _ = self.filtered((w, h), 31, f"{scene}|{RATE}|0", self.path("other.png"))
+            frame = numpy.asarray(Image.fromarray(frames[30]).resize((320, 240), Image.BILINEAR)).astype(int)
+            off = numpy.abs(frame - expected).max(axis=2)
+            self.assertLess(numpy.mean(off > 12), 0.02, (w, h))  # only at edges of the cage
+        unmoved = self.write("unmoved.json", {"format": "holomorph", "version": 1, "image": {"file": "0.png"}})
+        smooth.resize((400, 100)).save(self.path("wide.png"))
+        frames, _ = self.filtered((400, 100), 2, f"{unmoved}|25|0", self.path("wide.png"))
+        wide = numpy.asarray(Image.open(self.path("wide.png")).convert("RGBA"))
+        self.assertTrue((numpy.abs(frames[1].astype(int) - wide) <= 2).all())
+
+    def test_a_scene_is_drawn_over_the_middle_of_a_frame(self):
+        Image.new("RGB", (400, 300), (10, 200, 90)).save(self.path("film.png"))
+        Image.new("RGBA", (50, 100), (250, 0, 0, 255)).save(self.path("red.png"))
+        scene = self.write("red.json", {"format": "holomorph", "version": 1, "image": {"file": "red.png"}})
+        frame = self.filtered((400, 300), 1, f"{scene}|25|1", self.path("film.png"))[0][0]
+        expected = numpy.full((300, 400, 4), (10, 200, 90, 255))
+        expected[:, 125:275] = (250, 0, 0, 255)
+        self.assertTrue((frame == expected).all())
+
+    def test_what_is_wrong_is_said_once_and_frames_stay(self):
+        Image.effect_noise((64, 48), 80).convert("RGB").save(self.path("film.png"))
+        film = numpy.asarray(Image.open(self.path("film.png")).convert("RGBA"))
+        broken = self.write("broken.json", "{")
+        for parameters, says in ((self.path("none.json"), "none.json"), (broken, "broken.json"),
+                                 (f"{self.scene(random.Random(1), (64, 48))}|fast", "the frame rate 'fast'")):
+            frames, said = self.filtered((64, 48), 3, parameters, self.path("film.png"), check=False)
+            self.assert_same(frames, [film] * 3)
+            self.assertEqual(said.count("holomorph:"), 1)
+            self.assertIn(says, said)
+        frames, _ = self.filtered((64, 48), 2, "", self.path("film.png"))  # no scene yet
+        self.assert_same(frames, [film] * 2)
+
+    def test_parameters_are_listed_and_can_be_read_back(self):
+        class Info(ctypes.Structure):
+            _fields_ = [("name", ctypes.c_char_p), ("type", ctypes.c_int), ("explanation", ctypes.c_char_p)]
+
+        library = ctypes.CDLL(os.path.join(FOLDER, "holomorph.so"))
+        library.f0r_construct.restype = ctypes.c_void_p
+        names = []
+        for i in range(3):
+            info = Info()
+            library.f0r_get_param_info(ctypes.byref(info), i)
+            names.append(info.name.decode())
+        self.assertEqual(names, ["Scene", "Frame rate", "Mode"])
+        one = ctypes.c_void_p(library.f0r_construct(8, 8))
+        for i, text in enumerate((b"a scene.json", b"24")):
+            library.f0r_set_param_value(one, ctypes.byref(ctypes.c_char_p(text)), i)
+            read = ctypes.c_char_p()
+            library.f0r_get_param_value(one, ctypes.byref(read), i)
+            self.assertEqual(read.value, text)
+        mode = ctypes.c_double(1)
+        library.f0r_set_param_value(one, ctypes.byref(mode), 2)
+        read = ctypes.c_double()
+        library.f0r_get_param_value(one, ctypes.byref(read), 2)
+        self.assertEqual(read.value, 1)
+        library.f0r_destruct(one)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]], verbosity=2)
