@@ -19,7 +19,7 @@ Path in_document_folder(const Document& document, const FileChooser& chooser,
 void Exports::answer(Request request) {
   const Path folder = in_folder("").parent_path();
   if (request == Request::export_picture) dialog_.ask({}, folder);
-  if (request == Request::export_film) dialog_.ask(true, folder);
+  if (request == Request::export_film) dialog_.ask(ExportKind::film, folder);
   if (request == Request::export_again) dialog_.again(folder);
   if (request == Request::copy_picture) copy_picture();
   if (request == Request::export_svg) ask_cage();

@@ -8,9 +8,9 @@
 #include <map>
 
 #include "cli/commands.h"
-#include "cli/formats.h"
 #include "cli/streams.h"
 #include "core/error.h"
+#include "exports/export_formats.h"
 #include "film/film_writer.h"
 #include "raster/st_map.h"
 #include "scene/formats/export.h"

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/error.h"
-#include "film/film_writer.h"
+#include "exports/export_formats.h"
 #include "scene/formats/file_kinds.h"
 #include "scene/formats/image.h"
 #include "scene/formats/layered.h"
@@ -87,96 +86,6 @@ std::vector<Row> rows() {
 }
 
 }  // namespace
-
-const std::vector<ExportFormat>& export_formats() {
-  static const std::vector<ExportFormat> all = [] {
-    std::vector<ExportFormat> formats{
-        {.id = "obj",
-         .extensions = {".obj"},
-         .writes = "the bent mesh",
-         .time = true,
-         .frames = true,
-         .meshes = true},
-        {.id = "svg", .extensions = {".svg"}, .writes = "the cage", .time = true},
-        {.id = "npy", .extensions = {".npy"}, .writes = "the vertices of the mesh", .time = true},
-        {.id = "png",
-         .extensions = {".png"},
-         .writes = "the picture",
-         .scale = true,
-         .crop = true,
-         .time = true,
-         .frames = true},
-        {.id = "stmap",
-         .extensions = {".exr", ".npy"},
-         .writes = "an ST-map",
-         .scale = true,
-         .time = true,
-         .frames = true,
-         .st_map = true},
-        {.id = "unwarp-map",
-         .extensions = {".exr", ".npy"},
-         .writes = "an ST-map that straightens",
-         .scale = true,
-         .time = true,
-         .frames = true,
-         .st_map = true},
-        {.id = "unwarp",
-         .extensions = {".png"},
-         .writes = "the straightened picture",
-         .scale = true,
-         .time = true},
-        {.id = "textured",
-         .extensions = {".obj"},
-         .writes = "the surface with the picture as its texture",
-         .scale = true}};
-    const auto add_meshes = [&](const char* id, const char* extension, const char* writes,
-                                bool all_layers) {
-      formats.push_back({.id = id,
-                         .extensions = {extension},
-                         .writes = writes,
-                         .time = true,
-                         .frames = true,
-                         .meshes = true,
-                         .all_layers = all_layers});
-    };
-    add_meshes("glb", ".glb", "the moving layers as glTF", true);
-    add_meshes("godot", ".tscn", "the moving layers as a scene of Godot 3", true);
-    add_meshes("spine", ".json", "the moving layers as a Spine skeleton", true);
-    add_meshes("mdd", ".mdd", "the moving vertices of the mesh", false);
-    add_meshes("pc2", ".pc2", "the moving vertices of the mesh", false);
-    for (const LayeredFormat& layered : layered_formats())
-      formats.push_back({.id = layered.extension.substr(1),
-                         .extensions = {layered.extension},
-                         .writes = "the posed layers",
-                         .scale = true,
-                         .crop = true,
-                         .time = true});
-    for (const FilmFormat& film : film_formats())
-      if (film.extension != ".png")
-        formats.push_back({.id = film.extension.substr(1),
-                           .extensions = {film.extension},
-                           .writes = film.needs_ffmpeg ? "a film (needs ffmpeg)" : "a film",
-                           .scale = true,
-                           .crop = true,
-                           .frames = true,
-                           .film = true});
-    return formats;
-  }();
-  return all;
-}
-
-std::string export_format_names() {
-  std::vector<std::string> names;
-  for (const ExportFormat& format : export_formats()) names.push_back(format.id);
-  return joined(names, ", ");
-}
-
-const ExportFormat& export_format_named(const std::string& id) {
-  const auto found = std::ranges::find(export_formats(), id, &ExportFormat::id);
-  if (found != export_formats().end()) return *found;
-  throw Error(ErrorKind::bad_input,
-              "unknown format '" + id + "'; choose one of: " + export_format_names());
-}
 
 void run(const FormatsCommand& command) {
   if (command.markdown) {

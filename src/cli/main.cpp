@@ -8,6 +8,7 @@
 #include "cli/formats.h"
 #include "cli/progress.h"
 #include "core/error.h"
+#include "exports/export_formats.h"
 #include "scene/budget.h"
 #include "system/memory.h"
 #include "system/text.h"

@@ -2,12 +2,12 @@
 #include <cstdio>
 
 #include "cli/commands.h"
-#include "cli/formats.h"
 #include "cli/meshes.h"
 #include "cli/progress.h"
 #include "cli/st_maps.h"
 #include "cli/streams.h"
 #include "core/error.h"
+#include "exports/export_formats.h"
 #include "film/film.h"
 #include "film/ordered_tasks.h"
 #include "raster/layered_picture.h"

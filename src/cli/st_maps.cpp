@@ -6,30 +6,14 @@
 #include "cli/progress.h"
 #include "cli/streams.h"
 #include "core/error.h"
+#include "exports/st_map_file.h"
 #include "film/film_writer.h"
-#include "raster/st_map.h"
-#include "scene/formats/export.h"
-#include "system/text.h"
 
 namespace holomorph {
 namespace {
 
-/// Whether the name selects OpenEXR instead of NumPy. Throws Error for other extensions.
-bool is_exr(const Path& out) {
-  const std::string extension = lower_case(out.extension().string());
-  if (!extension.empty() && extension != ".exr" && extension != ".npy")
-    throw Error(ErrorKind::bad_input,
-                out.string() +
-                    ": an ST-map is an OpenEXR or NumPy file; end the name with .exr or "
-                    ".npy");
-  return extension == ".exr";
-}
-
-std::string encoded(StMap map, const ExportCommand& command) {
-  if (!is_exr(command.out))
-    return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
-  extend(map);
-  return exr_of(float_image_of(std::move(map)), command.half ? FloatBits::half : FloatBits::single);
+FloatBits bits_of(const ExportCommand& command) {
+  return command.half ? FloatBits::half : FloatBits::single;
 }
 
 std::string size_text(const StMap& map) {
@@ -47,7 +31,7 @@ void export_one(const LoadedScene& loaded, const ExportCommand& command, const I
       progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
     });
     size = size_text(made);
-    bytes = encoded(std::move(made), command);
+    bytes = st_map_bytes(std::move(made), command.out, bits_of(command));
   }
   write_result(command.out, bytes);
   std::fprintf(stderr, "%s: %s\n", shown_output(command.out).c_str(), size.c_str());
@@ -73,7 +57,8 @@ void export_frames(const LoadedScene& loaded, const ExportCommand& command, cons
       options.time = frame / loaded.scene.animation.frames_per_second;
       StMap made = st_map_of(map, picture, options, [](int, int) { stop_if_interrupted(); });
       size = size_text(made);
-      write_file(numbered(command.out, frame), encoded(std::move(made), command));
+      write_file(numbered(command.out, frame),
+                 st_map_bytes(std::move(made), command.out, bits_of(command)));
     }
   }
   std::fprintf(stderr, "%zu ST-maps of %s: %s to %s\n", count, size.c_str(),

@@ -1,7 +1,6 @@
 // A frei0r filter for ffmpeg, melt, Kdenlive and Shotcut: warps each frame of a film as the picture
 // of a scene, or draws the scene over it.
 #include <dlfcn.h>
-#include <frei0r.h>
 
 #include <cstdio>
 #include <cstring>
@@ -13,6 +12,13 @@
 #include "raster/picture.h"
 #include "scene/keyframes.h"
 #include "scene/loading.h"
+
+// The functions that hosts find are those that are declared here.
+#pragma GCC visibility push(default)
+extern "C" {
+#include <frei0r.h>
+}
+#pragma GCC visibility pop
 
 using namespace holomorph;
 
@@ -163,7 +169,6 @@ class Filter {
 
 }  // namespace
 
-#pragma GCC visibility push(default)
 extern "C" {
 
 int f0r_init() {
@@ -212,4 +217,3 @@ void f0r_update(f0r_instance_t instance, double time, const std::uint32_t* in, s
 }
 
 }  // extern "C"
-#pragma GCC visibility pop

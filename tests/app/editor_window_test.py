@@ -173,6 +173,54 @@ class EditorWindowTest(WindowCase):
             with open(out, "rb") as file:
                 self.assertTrue(file.read(8).startswith(b"8BPS" if kind == "psd" else b"PK"))
 
+    def test_meshes_and_st_maps_from_the_dialog_have_the_bits_of_the_command(self):
+        scene = os.path.join(SOURCE, "assets/fern.json")
+        options = {"glb": ["glb"], "tscn": ["godot"], "pc2": ["pc2"], "exr": ["stmap", "--time", "0"]}
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the scene")
+            for extension, words in options.items():
+                out, expected = (os.path.join(self.work, name + "/fern." + extension) for name in ("window", "command"))
+                os.makedirs(os.path.dirname(out), exist_ok=True)
+                os.makedirs(os.path.dirname(expected), exist_ok=True)
+                self.ask(editor, "ctrl+e")
+                editor.key("ctrl+a")
+                editor.type(out)
+                time.sleep(0.5)
+                self.screenshot(editor, "export-" + extension)
+                editor.key("Return")
+                editor.wait(lambda s: os.path.exists(out) and not s["exporting"] and not s["asking"], "the export", 120)
+                subprocess.run([PROGRAM, "export", scene, "--format", *words, "--out", expected], check=True,
+                               stderr=subprocess.DEVNULL)
+            # The mesh is measured before it is exported, with fewer vertices if that is asked for.
+            self.ask(editor, "ctrl+e")
+            editor.key("ctrl+a")
+            editor.type(os.path.join(self.work, "window/small.glb"))
+            editor.press_item("All that the editor uses")
+            self.type_into(editor, "Per layer", "120")
+            time.sleep(3)
+            self.screenshot(editor, "export-small")
+            editor.press_item("Export")
+            editor.wait(lambda s: os.path.exists(os.path.join(self.work, "window/small.glb")) and not s["exporting"],
+                        "a smaller mesh", 120)
+            # A texture of another scene is not replaced.
+            self.ask(editor, "ctrl+e")
+            editor.key("ctrl+a")
+            os.remove(os.path.join(self.work, "window/fern.tscn"))
+            textures = [name for name in os.listdir(os.path.join(self.work, "window")) if name.endswith(".png")]
+            self.assertTrue(textures)
+            editor.type(os.path.join(self.work, "window/fern.tscn"))
+            editor.key("Return")
+            editor.wait(lambda s: not s["exporting"], "the refusal", 120)
+            time.sleep(0.5)
+            self.screenshot(editor, "export-refused")
+            self.assertFalse(os.path.exists(os.path.join(self.work, "window/fern.tscn")))
+        subprocess.run([PROGRAM, "export", scene, "--format", "glb", "--vertices", "120", "--out",
+                        os.path.join(self.work, "command/small.glb")], check=True, stderr=subprocess.DEVNULL)
+        os.remove(os.path.join(self.work, "command/fern.tscn"))
+        for name in os.listdir(os.path.join(self.work, "command")):
+            with open(os.path.join(self.work, "window", name), "rb") as a, open(os.path.join(self.work, "command", name), "rb") as b:
+                self.assertEqual(a.read(), b.read(), name)
+
     def test_opacity_and_blending_are_chosen_and_saved(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         with Editor(PROGRAM, [scene]) as editor:

@@ -13,9 +13,9 @@
 #include "app/look/surfaces.h"
 #include "app/panels/panels.h"
 #include "edit/content.h"
-#include "raster/layered_picture.h"
+#include "exports/export_formats.h"
 #include "scene/formats/file_kinds.h"
-#include "system/new_file.h"
+#include "scene/formats/layered.h"
 
 namespace holomorph {
 namespace {
@@ -23,34 +23,63 @@ namespace {
 constexpr const char* kRegions[] = {"Everything", "The picture's rectangle",
                                     "What the canvas shows"};
 
-/// A file format: its name, its extension, and whether it is for films.
+/// A row of the list of formats.
 struct Format {
   std::string label, extension;
-  bool film = false;
+  ExportKind kind = ExportKind::picture;
 };
 
-std::vector<Format> formats(bool plays) {
+bool has_any_cage(const Scene& scene) {
+  return std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
+    return layer->visible && layer->deformation.has_cage();
+  });
+}
+
+/// The formats that make sense for a scene.
+std::vector<Format> formats(const Scene& scene) {
   std::vector<Format> all;
   for (const PictureFormat& format : picture_formats())
-    all.push_back({format.label, format.extension, false});
+    all.push_back({format.label, format.extension});
   for (const LayeredFormat& format : layered_formats())
-    all.push_back({format.label, format.extension, false});
-  if (plays)
+    all.push_back({format.label, format.extension});
+  const bool moves = plays(scene);
+  if (moves)
     for (const FilmFormat& format : film_formats())
-      all.push_back({format.label, format.extension, true});
+      all.push_back({format.label, format.extension, ExportKind::film});
+  const bool has_cage = scene.deformation().has_cage();
+  for (const ExportFormat& format : export_formats()) {
+    if (format.label.empty()) continue;
+    const bool sequence = format.meshes && is_sequence({format.id, {}});
+    if (format.meshes && (format.all_layers ? has_any_cage(scene) : has_cage) &&
+        (moves || !sequence))
+      all.push_back({format.label, format.extensions[0], ExportKind::meshes});
+    if (format.st_map && has_cage)
+      all.push_back({format.label, format.extensions[0],
+                     format.id == "stmap" ? ExportKind::st_map : ExportKind::unwarp_map});
+  }
   return all;
 }
 
-/// Whether an extension belongs to a known format of pictures or films. Anything else that follows
-/// a dot is a part of the name.
+/// Whether an extension belongs to a known format. Anything else that follows a dot is a part of
+/// the name.
 bool is_known_extension(const std::string& extension) {
   const auto is = [&](const std::string& each) { return each == extension; };
   return std::ranges::any_of(extensions_of({FileContent::picture}), is) ||
-         std::ranges::any_of(film_formats(), is, &FilmFormat::extension);
+         std::ranges::any_of(film_formats(), is, &FilmFormat::extension) ||
+         std::ranges::any_of(export_formats(), [&](const ExportFormat& format) {
+           return std::ranges::any_of(format.extensions, is);
+         });
+}
+
+bool is_drawn(ExportKind kind) {
+  return kind == ExportKind::picture || kind == ExportKind::film;
+}
+bool is_st_map(ExportKind kind) {
+  return kind == ExportKind::st_map || kind == ExportKind::unwarp_map;
 }
 
 bool uses_format(const ExportSettings& settings, const Format& format) {
-  return settings.film == format.film && format_extension(settings.path) == format.extension;
+  return settings.kind == format.kind && format_extension(settings.path) == format.extension;
 }
 
 }  // namespace
@@ -75,11 +104,15 @@ std::string missing_picture_message(const Workspace& workspace) {
   return "";
 }
 
-void ExportDialog::ask(std::optional<bool> asked, const Path& folder) {
+void ExportDialog::ask(std::optional<ExportKind> asked, const Path& folder) {
   const Document& document = workspace_.document;
   // A scene that has begun to move since the last export is proposed as a film.
   const bool moves = plays(document.scene());
-  const bool film = asked.value_or(last_ && last_moved_ == moves ? last_->film : moves);
+  const ExportKind usual = moves ? ExportKind::film : ExportKind::picture;
+  const ExportKind kind = asked.value_or(last_ && last_moved_ == moves ? last_->kind : usual);
+  const auto extension_of = [](ExportKind kind) {
+    return kind == ExportKind::film ? ".webp" : ".png";
+  };
   folder_ = folder;
   if (last_) {
     settings_ = *last_;
@@ -88,15 +121,18 @@ void ExportDialog::ask(std::optional<bool> asked, const Path& folder) {
     const Path source = document.path().empty() ? document.first_picture() : document.path();
     const std::string stem = source.empty() ? "picture" : source.stem().string();
     settings_ = {};
-    settings_.path = folder / (stem + (film ? ".webp" : "-bent.png"));
+    settings_.kind = kind;
+    settings_.path =
+        folder / (stem + (kind == ExportKind::film ? "" : "-bent") + extension_of(kind));
   }
   const int last = last_frame_of(document.scene());
   const bool had_all = !last_ || last_all_;
   settings_.last = had_all ? last : std::clamp(settings_.last, 0, last);
   settings_.first = std::clamp(settings_.first, 0, settings_.last);
-  if (film != settings_.film) {
-    settings_.film = film;
-    settings_.path.replace_extension(film ? ".webp" : ".png");
+  const auto is_chosen = [&](const Format& format) { return uses_format(settings_, format); };
+  if (kind != settings_.kind || std::ranges::none_of(formats(document.scene()), is_chosen)) {
+    settings_.kind = kind == ExportKind::film ? kind : ExportKind::picture;
+    settings_.path.replace_extension(extension_of(settings_.kind));
   }
   name_ = settings_.path.string();
   message_.clear();
@@ -143,13 +179,29 @@ std::pair<Scene, PictureOptions> ExportDialog::drawn() const {
   return {std::move(scene), options};
 }
 
+std::string ExportDialog::st_map_text() const {
+  const Image* picture = workspace_.document.image();
+  if (!picture) return "The edited layer has no picture";
+  const auto side = [&](int length) {
+    return std::to_string(std::lround(length * settings_.scale) + 2 * settings_.overscan);
+  };
+  return side(picture->width) + " \u00d7 " + side(picture->height) +
+         " px; red and green are the place in the picture, alpha is the coverage";
+}
+
 std::string ExportDialog::result_text() const {
+  const bool film = settings_.kind == ExportKind::film;
+  if (settings_.kind == ExportKind::meshes) {
+    const std::string measured = estimate_.text();
+    return measured.empty() ? "Measuring..." : measured;
+  }
+  if (is_st_map(settings_.kind)) return st_map_text();
   const std::optional<Box> box = region_box();
   const Box shown = box ? *box : content_box(workspace_);
   const bool crops = settings_.crops_to_filled;
   std::string text;
   char part[120];
-  if (settings_.film) {
+  if (film) {
     const double rate = workspace_.document.scene().animation.frames_per_second;
     const int count = frames();
     std::snprintf(part, sizeof part, "%d frame%s, %.2f s, ", count, count == 1 ? "" : "s",
@@ -157,10 +209,10 @@ std::string ExportDialog::result_text() const {
     text += part;
   }
   std::snprintf(part, sizeof part, "%s%.0f \u00d7 %.0f px",
-                crops            ? "at most "
-                : box            ? ""
-                : settings_.film ? "at least "
-                                 : "about ",
+                crops  ? "at most "
+                : box  ? ""
+                : film ? "at least "
+                       : "about ",
                 std::ceil(shown.width() * settings_.scale),
                 std::ceil(shown.height() * settings_.scale));
   text += part;
@@ -175,18 +227,30 @@ std::string ExportDialog::result_text() const {
 }
 
 std::vector<Path> ExportDialog::files() const {
-  return settings_.film ? files_of_film(settings_.path, frames()) : std::vector{settings_.path};
+  if (settings_.kind == ExportKind::film) return files_of_film(settings_.path, frames());
+  const Scene& scene = workspace_.document.scene();
+  if (settings_.kind != ExportKind::meshes || !is_sequence(mesh_export_of(settings_, scene)))
+    return {settings_.path};
+  std::vector<Path> all;
+  for (int i = settings_.first; i <= settings_.last; ++i)
+    all.push_back(numbered(settings_.path, i));
+  return all;
 }
 
 std::string ExportDialog::start(const ExportSettings& settings) {
   settings_ = settings;
   const Document& document = workspace_.document;
+  bool replaces = false;
   try {
-    if (settings.film)
+    if (settings.kind == ExportKind::film)
       film_format_of(settings.path);
-    else if (!layered_format_of(settings.path))
+    else if (settings.kind == ExportKind::picture && !layered_format_of(settings.path))
       picture_format_of(settings.path);
-    for (const Path& file : files()) check_may_write(file, document.sources());
+    for (const Path& file : files()) {
+      check_may_write(file, document.sources());
+      std::error_code error;
+      replaces = replaces || std::filesystem::exists(file, error);
+    }
     if (const std::string problem = missing_picture_message(workspace_); !problem.empty())
       return problem;
   } catch (const Error& error) {
@@ -194,49 +258,20 @@ std::string ExportDialog::start(const ExportSettings& settings) {
   }
   auto [scene, options] = drawn();
   struct Work {
-    Scene scene;
-    Pictures pictures;
-    ExportSettings settings;
-    PictureOptions options;
+    ExportWork work;
     std::string done;
   };
-  const auto work =
-      std::make_shared<Work>(Work{std::move(scene), document.pictures(), settings, options, ""});
-  const auto export_it = [work](Job::Progress& progress) {
-    const Scene& scene = work->scene;
-    const Pictures& pictures = work->pictures;
-    const ExportSettings& settings = work->settings;
-    const PictureOptions& options = work->options;
-    const Image* image = pictures.of(scene.layer());
-    const std::string name = settings.path.filename().string();
-    if (settings.film) {
-      FilmOptions film{options, settings.first, settings.last, settings.loops};
-      const auto written = write_film(
-          settings.path, scene, image, film,
-          [&](int done, int all) { return progress.at(done, all); }, pictures);
-      if (written)
-        work->done = "Exported " + name + ", " + std::to_string(written->frames) + " frames.";
-      return;
-    }
-    const LayeredFormat* layered = layered_format_of(settings.path);
-    LayeredPicture picture;
-    if (layered)
-      picture = layered_picture_of(scene, image, options, pictures);
-    else
-      picture.merged = picture_of(scene, image, options, pictures).image;
-    if (progress.cancelled()) return;
-    const std::string bytes = layered ? layered->encode(picture)
-                                      : picture_format_of(settings.path).encode(picture.merged);
-    if (progress.cancelled()) return;
-    write_file(settings.path, bytes);
-    work->done = "Exported " + name + ", " + std::to_string(picture.merged.width) + " \u00d7 " +
-                 std::to_string(picture.merged.height) + " px.";
+  const auto it = std::make_shared<Work>(
+      Work{{std::move(scene), document.pictures(), settings, options, document.sources(), replaces},
+           ""});
+  const auto export_it = [it](Job::Progress& progress) {
+    it->done = done_export(it->work, progress);
   };
-  return jobs_.run("Exporting " + settings.path.filename().string(), export_it, [this, work] {
-    last_ = work->settings;
-    last_all_ = work->settings.last == last_frame_of(workspace_.document.scene());
+  return jobs_.run("Exporting " + settings.path.filename().string(), export_it, [this, it] {
+    last_ = it->work.settings;
+    last_all_ = last_->last == last_frame_of(workspace_.document.scene());
     last_moved_ = plays(workspace_.document.scene());
-    workspace_.messages.say(work->done);
+    workspace_.messages.say(it->done);
   });
 }
 
@@ -248,22 +283,22 @@ Path ExportDialog::in_folder(const Path& path) const {
 /// without an extension.
 std::vector<std::string> ExportDialog::extensions() const {
   std::vector<std::string> all{format_extension(settings_.path)};
-  for (const Format& format : formats(plays(workspace_.document.scene())))
+  for (const Format& format : formats(workspace_.document.scene()))
     if (std::ranges::find(all, format.extension) == all.end()) all.push_back(format.extension);
   return all;
 }
 
-/// Sets the path and, from its extension, the format. If pictures and films share the extension,
+/// Sets the path and, from its extension, the format. If several kinds of files have the extension,
 /// the current choice between them is kept. Returns false if the extension is unknown.
 bool ExportDialog::take_path(const Path& path) {
-  const std::vector<Format> known = formats(plays(workspace_.document.scene()));
+  const std::vector<Format> known = formats(workspace_.document.scene());
   const std::string extension = format_extension(path);
   const auto is_same = [&](const Format& format) {
-    return format.extension == extension && format.film == settings_.film;
+    return format.extension == extension && format.kind == settings_.kind;
   };
   const auto other = std::ranges::find(known, extension, &Format::extension);
   if (other == known.end()) return false;
-  if (std::ranges::none_of(known, is_same)) settings_.film = other->film;
+  if (std::ranges::none_of(known, is_same)) settings_.kind = other->kind;
   settings_.path = path;
   return true;
 }
@@ -335,14 +370,14 @@ void ExportDialog::draw_file() {
 
 void ExportDialog::draw_format() {
   std::string preview = settings_.path.extension().string();
-  const std::vector<Format> known = formats(plays(workspace_.document.scene()));
+  const std::vector<Format> known = formats(workspace_.document.scene());
   for (const Format& format : known)
     if (uses_format(settings_, format)) preview = format.label;
   row_label("Format");
   if (!begin_dropdown("##Format", preview)) return;
   for (const Format& format : known)
     if (dropdown_row(format.label, uses_format(settings_, format))) {
-      settings_.film = format.film;
+      settings_.kind = format.kind;
       settings_.path = Path(name_).replace_extension(format.extension);
       name_ = settings_.path.string();
       confirming_ = false;
@@ -402,6 +437,7 @@ void ExportDialog::draw_frames() {
     settings_.first = std::clamp(static_cast<int>(std::lround(from)), 0, last);
     settings_.last = std::clamp(static_cast<int>(std::lround(to)), settings_.first, last);
   }
+  if (settings_.kind != ExportKind::film) return;
   if (switch_row("Loop", settings_.loops)) settings_.loops = !settings_.loops;
   if (settings_.loops && frames() < settings_.last - settings_.first + 1) {
     ImGui::SameLine(0, px(12));
@@ -411,6 +447,39 @@ void ExportDialog::draw_frames() {
   }
 }
 
+void ExportDialog::draw_meshes() {
+  const Scene& scene = workspace_.document.scene();
+  bool own = !settings_.vertices;
+  row_label("Vertices");
+  if (check_box("All that the editor uses", own))
+    settings_.vertices = own ? std::nullopt : std::optional<size_t>(500);
+  if (settings_.vertices) {
+    double vertices = static_cast<double>(*settings_.vertices);
+    if (slider_row("Per layer", vertices, {.low = 30, .high = 5000, .logarithmic = true}))
+      settings_.vertices = static_cast<size_t>(std::lround(vertices));
+  }
+  if (!plays(scene)) return;
+  draw_frames();
+  const std::string format = mesh_export_of(settings_, scene).format;
+  if (!export_format_named(format).all_layers) return;
+  const double usual = scene.animation.frames_per_second;
+  double rate = settings_.rate.value_or(usual);
+  if (slider_row("Rate", rate, {.low = 1, .high = 120, .unit = "/s", .neutral = usual}))
+    settings_.rate = rate == usual ? std::nullopt : std::optional(rate);
+}
+
+void ExportDialog::draw_st_map() {
+  double percent = 100 * settings_.scale;
+  if (slider_row("Scale", percent,
+                 {.low = 10, .high = 400, .unit = "%", .logarithmic = true, .neutral = 100.0}))
+    settings_.scale = std::round(percent) / 100;
+  double overscan = settings_.overscan;
+  if (slider_row("Overscan", overscan, {.low = 0, .high = 1000, .unit = "px", .neutral = 0.0}))
+    settings_.overscan = static_cast<int>(std::lround(overscan));
+  row_label("");
+  check_box("Half precision", settings_.half);
+}
+
 void ExportDialog::draw() {
   if (!open_ || chooser_.open()) return;  // hidden while a file is being chosen
   if (!begin_dialog("Export", "###export", 620)) return;
@@ -418,13 +487,20 @@ void ExportDialog::draw() {
     const ScopedLabelWidth wide(px(96));
     draw_file();
     draw_format();
-    draw_look();
-    if (settings_.film) draw_frames();
+    if (is_drawn(settings_.kind)) draw_look();
+    if (settings_.kind == ExportKind::film) draw_frames();
+    if (settings_.kind == ExportKind::meshes) draw_meshes();
+    if (is_st_map(settings_.kind)) draw_st_map();
   }
-  const auto [scene, options] = drawn();
-  estimate_.update({scene, options, settings_.path.extension().string(), settings_.film,
-                    settings_.first, settings_.film ? frames() : 1},
-                   workspace_.document.pictures());
+  if (!is_st_map(settings_.kind)) {
+    const auto [scene, options] = drawn();
+    const bool film = settings_.kind == ExportKind::film;
+    ExportEstimate::Question question{scene, options,         settings_.path.extension().string(),
+                                      film,  settings_.first, film ? frames() : 1,
+                                      {}};
+    if (settings_.kind == ExportKind::meshes) question.meshes = mesh_export_of(settings_, scene);
+    estimate_.update(std::move(question), workspace_.document.pictures());
+  }
   if (message_.empty())
     caption(result_text());
   else

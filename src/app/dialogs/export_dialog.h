@@ -1,4 +1,4 @@
-// One dialog for pictures and films: what to export, at which size, and to which file.
+// One dialog for all that a scene can be exported as: what, at which size, and to which file.
 #pragma once
 
 #include "app/dialogs/export_estimate.h"
@@ -7,19 +7,6 @@
 #include "film/film.h"
 
 namespace holomorph {
-
-/// Settings of an export. "Export again" reuses them.
-struct ExportSettings {
-  enum class Region { all, picture, canvas };
-  Path path;          ///< its extension determines the format
-  bool film = false;  ///< a film or a picture; .png and .webp can be either
-  double scale = 1;   ///< output pixels per image pixel
-  Region region = Region::all;
-  std::optional<Background> background;  ///< none: the scene's
-  int first = 0, last = 0;               ///< frames
-  bool loops = true;
-  bool crops_to_filled = false;
-};
 
 /// Options for a picture with the canvas's current view, color range and time.
 PictureOptions as_shown(const Workspace& workspace);
@@ -32,10 +19,10 @@ class ExportDialog {
   ExportDialog(Workspace& workspace, Jobs& jobs, FileChooser& chooser, std::function<void()> wake)
       : workspace_(workspace), jobs_(jobs), chooser_(chooser), estimate_(std::move(wake)) {}
 
-  /// Opens the dialog for a picture or a film; if `film` is not set, for what was exported last, or
-  /// else for a film if the scene moves. Proposes a file in the folder of the last export, or in
-  /// `folder` before the first export.
-  void ask(std::optional<bool> film, const Path& folder);
+  /// Opens the dialog for a kind; if it is not set, for what was exported last, or else for a film
+  /// if the scene moves and a picture otherwise. Proposes a file in the folder of the last export,
+  /// or in `folder` before the first export.
+  void ask(std::optional<ExportKind> kind, const Path& folder);
   /// Repeats the last export, or opens the dialog if there was none.
   void again(const Path& folder);
   /// Forgets the last export. Call this when another document is opened.
@@ -49,7 +36,10 @@ class ExportDialog {
   void draw_format();
   void draw_look();
   void draw_frames();
+  void draw_meshes();
+  void draw_st_map();
   std::string result_text() const;
+  std::string st_map_text() const;
   int frames() const;  ///< of the film
   /// What is to be exported: the scene with the chosen background, and how it is drawn.
   std::pair<Scene, PictureOptions> drawn() const;

@@ -15,6 +15,41 @@ constexpr double kSmall = 480;       // longest side of the small picture, pixel
 constexpr double kGrowth = 0.9;      // exponent of the pixels
 constexpr double kLaterFrame = 0.6;  // size of a later frame of a film, relative to the first
 
+std::string size_of(double bytes) {
+  char text[40];
+  if (bytes < 1e6)
+    std::snprintf(text, sizeof text, "%.0f kB", std::max(1.0, bytes / 1e3));
+  else
+    std::snprintf(text, sizeof text, "%.1f MB", bytes / 1e6);
+  return text;
+}
+
+/// What the meshes are, and how far they are from the exact motion.
+std::string measured(const ExportEstimate::Question& question, const Pictures& pictures,
+                     const Job::Progress& progress) {
+  struct Canceled {};
+  const Scene& scene = question.scene;
+  try {
+    const MovingMeshes moving =
+        moving_meshes_of(scene, pictures.of(scene.layer()), pictures,
+                         mesh_options_of(scene, *question.meshes), [&](size_t, size_t) {
+                           if (progress.cancelled()) throw Canceled{};
+                         });
+    std::string text = mesh_counts(moving) + mesh_error_text(moving);
+    if (const std::optional<double> rate = sufficient_rate(moving)) {
+      char more[80];
+      std::snprintf(more, sizeof more, "; with %.0f frames per second, less than %.2g px", *rate,
+                    kVisibleError);
+      text += more;
+    }
+    return text;
+  } catch (const Error& error) {
+    return error.what();
+  } catch (Canceled) {
+    return "";
+  }
+}
+
 /// The size in bytes; none if canceled.
 std::optional<double> estimate(const ExportEstimate::Question& question, const Pictures& pictures,
                                const Job::Progress& progress) {
@@ -50,44 +85,38 @@ bool ExportEstimate::Question::operator==(const Question& other) const {
     return std::tuple(o.view, o.scale, o.crops_to_filled, box.left, box.bottom, box.right, box.top,
                       o.time, q.extension, q.film, q.first, q.frames);
   };
-  return values(*this) == values(other) && scene == other.scene;
+  return values(*this) == values(other) && meshes == other.meshes && scene == other.scene;
 }
 
 void ExportEstimate::update(Question question, const Pictures& pictures) {
   if (result_) {
     const std::lock_guard lock(result_->mutex);
-    if (result_->bytes) bytes_ = result_->bytes;
+    if (!result_->text.empty()) text_ = result_->text;
   }
   if (job_ && job_->ended()) job_.reset();
   if (asked_ == question) return;
   if (job_) {  // the next frame after its end asks again
     job_->cancel();
     asked_.reset();
-    bytes_.reset();
+    text_.clear();
     result_.reset();
     return;
   }
   asked_ = question;
-  bytes_.reset();
+  text_.clear();
   result_ = std::make_shared<Result>();
   job_ = std::make_unique<Job>(
       "Estimating the size",
       [question = std::move(question), pictures, result = result_](Job::Progress& progress) {
-        const auto bytes = estimate(question, pictures, progress);
+        std::string text;
+        if (question.meshes)
+          text = measured(question, pictures, progress);
+        else if (const auto bytes = estimate(question, pictures, progress))
+          text = size_of(*bytes);
         const std::lock_guard lock(result->mutex);
-        result->bytes = bytes;
+        result->text = text;
       },
       wake_);
-}
-
-std::string ExportEstimate::text() const {
-  if (!bytes_) return "";
-  char text[40];
-  if (*bytes_ < 1e6)
-    std::snprintf(text, sizeof text, "%.0f kB", std::max(1.0, *bytes_ / 1e3));
-  else
-    std::snprintf(text, sizeof text, "%.1f MB", *bytes_ / 1e6);
-  return text;
 }
 
 }  // namespace holomorph

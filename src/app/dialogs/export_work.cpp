@@ -1,0 +1,131 @@
+// Each kind of export has one function.
+#include "app/dialogs/export_work.h"
+
+#include <algorithm>
+
+#include "exports/st_map_file.h"
+#include "film/film.h"
+#include "raster/layered_picture.h"
+#include "scene/keyframes.h"
+#include "system/new_file.h"
+
+namespace holomorph {
+namespace {
+
+/// Thrown to end work that the user has canceled.
+struct Canceled {};
+
+std::string name_of(const ExportWork& work) {
+  return work.settings.path.filename().string();
+}
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " \u00d7 " + std::to_string(height) + " px";
+}
+
+std::string exported_film(const ExportWork& work, Job::Progress& progress) {
+  const ExportSettings& settings = work.settings;
+  const FilmOptions film{work.options, settings.first, settings.last, settings.loops};
+  const auto written = write_film(
+      settings.path, work.scene, work.pictures.of(work.scene.layer()), film,
+      [&](int done, int all) { return progress.at(done, all); }, work.pictures);
+  if (!written) return "";
+  return "Exported " + name_of(work) + ", " + std::to_string(written->frames) + " frames.";
+}
+
+std::string exported_picture(const ExportWork& work, Job::Progress& progress) {
+  const Image* image = work.pictures.of(work.scene.layer());
+  const LayeredFormat* layered = layered_format_of(work.settings.path);
+  LayeredPicture picture;
+  if (layered)
+    picture = layered_picture_of(work.scene, image, work.options, work.pictures);
+  else
+    picture.merged = picture_of(work.scene, image, work.options, work.pictures).image;
+  if (progress.cancelled()) return "";
+  const std::string bytes = layered ? layered->encode(picture)
+                                    : picture_format_of(work.settings.path).encode(picture.merged);
+  if (progress.cancelled()) return "";
+  write_file(work.settings.path, bytes);
+  return "Exported " + name_of(work) + ", " +
+         size_text(picture.merged.width, picture.merged.height) + ".";
+}
+
+std::string exported_meshes(const ExportWork& work, Job::Progress& progress) {
+  const MeshExport wanted = mesh_export_of(work.settings, work.scene);
+  const MovingMeshes moving =
+      moving_meshes_of(work.scene, work.pictures.of(work.scene.layer()), work.pictures,
+                       mesh_options_of(work.scene, wanted), [&](size_t done, size_t all) {
+                         if (!progress.at(static_cast<int>(done), static_cast<int>(all)))
+                           throw Canceled{};
+                       });
+  const MeshFiles files = mesh_files_of(moving, wanted);
+  for (const auto& [path, bytes] : files) {
+    check_may_write(path, work.sources);
+    // The names of textures are known only now, so the user has agreed only to those of an export
+    // that is repeated.
+    if (std::error_code error; !work.replaces && std::filesystem::exists(path, error))
+      throw Error(ErrorKind::bad_input, path.filename().string() + " already exists, and " +
+                                            name_of(work) +
+                                            " needs a file with this name. Choose another name.");
+  }
+  if (progress.cancelled()) return "";
+  for (size_t i = files.size(); i-- > 0;) write_file(files[i].first, files[i].second);
+  std::string message = "Exported " + name_of(work) + ", " + mesh_counts(moving) + ".";
+  if (export_format_named(wanted.format).all_layers)
+    for (const std::string& loss : mesh_losses_of(work.scene)) message += " " + loss + ".";
+  return message;
+}
+
+std::string exported_st_map(const ExportWork& work, Job::Progress& progress) {
+  const ExportSettings& settings = work.settings;
+  const Image none, *picture = work.pictures.of(work.scene.layer());
+  TimedMap map(work.scene);
+  StMap made = st_map_of(map, picture ? *picture : none,
+                         {settings.kind == ExportKind::unwarp_map, settings.scale,
+                          settings.overscan, work.options.time},
+                         [&](int done, int all) {
+                           if (!progress.at(done, all)) throw Canceled{};
+                         });
+  const std::string size = size_text(made.width, made.height);
+  const std::string bytes = st_map_bytes(std::move(made), settings.path,
+                                         settings.half ? FloatBits::half : FloatBits::single);
+  if (progress.cancelled()) return "";
+  write_file(settings.path, bytes);
+  return "Exported " + name_of(work) + ", " + size + ".";
+}
+
+}  // namespace
+
+MeshExport mesh_export_of(const ExportSettings& settings, const Scene& scene) {
+  const std::string extension = settings.path.extension().string();
+  MeshExport wanted;
+  for (const ExportFormat& format : export_formats())
+    if (format.meshes && format.extensions[0] == extension) wanted.format = format.id;
+  wanted.out = settings.path;
+  wanted.vertices = settings.vertices;
+  if (!plays(scene)) return wanted;
+  wanted.frames = std::pair(settings.first, settings.last);
+  if (!wanted.format.empty() && export_format_named(wanted.format).all_layers)
+    wanted.rate = settings.rate;
+  return wanted;
+}
+
+std::string done_export(const ExportWork& work, Job::Progress& progress) {
+  try {
+    switch (work.settings.kind) {
+      case ExportKind::picture:
+        return exported_picture(work, progress);
+      case ExportKind::film:
+        return exported_film(work, progress);
+      case ExportKind::meshes:
+        return exported_meshes(work, progress);
+      case ExportKind::st_map:
+      case ExportKind::unwarp_map:
+        return exported_st_map(work, progress);
+    }
+  } catch (Canceled) {
+  }
+  return "";
+}
+
+}  // namespace holomorph

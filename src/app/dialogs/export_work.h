@@ -1,0 +1,45 @@
+// Writes an export on another thread.
+#pragma once
+
+#include "exports/mesh_export.h"
+#include "raster/picture.h"
+#include "scene/loading.h"
+#include "system/job.h"
+
+namespace holomorph {
+
+/// What a file contains. Pictures may have layers.
+enum class ExportKind { picture, film, meshes, st_map, unwarp_map };
+
+/// Settings of an export. "Export again" reuses them.
+struct ExportSettings {
+  enum class Region { all, picture, canvas };
+  Path path;  ///< its extension determines the format
+  ExportKind kind = ExportKind::picture;
+  double scale = 1;  ///< output pixels per image pixel
+  Region region = Region::all;
+  std::optional<Background> background;  ///< none: the scene's
+  int first = 0, last = 0;               ///< frames
+  bool loops = true;
+  bool crops_to_filled = false;
+  std::optional<size_t> vertices;  ///< of each layer's mesh; none: its own
+  std::optional<double> rate;      ///< frames of meshes per second; none: the scene's
+  int overscan = 0;                ///< of ST-maps, pixels
+  bool half = false;               ///< ST-maps have half precision
+};
+
+/// What `export` would be asked for.
+MeshExport mesh_export_of(const ExportSettings& settings, const Scene& scene);
+
+struct ExportWork {
+  Scene scene;
+  Pictures pictures;
+  ExportSettings settings;
+  PictureOptions options;
+  Sources sources;        ///< must not be overwritten
+  bool replaces = false;  ///< the user agreed to overwrite what was exported before
+};
+/// Does the work. Returns a message for the user, or "" if it was canceled. Throws Error.
+std::string done_export(const ExportWork& work, Job::Progress& progress);
+
+}  // namespace holomorph

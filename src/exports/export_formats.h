@@ -1,0 +1,26 @@
+// The table of everything that a scene can be exported as, besides single pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace holomorph {
+
+/// A format of exports and the options that it accepts.
+struct ExportFormat {
+  std::string id;
+  std::string label = {};               ///< its name in the dialog; empty: it is not there
+  std::vector<std::string> extensions;  ///< with the dot
+  std::string writes;                   ///< what is written, such as "a film"
+  bool scale = false, crop = false, time = false, frames = false, st_map = false, film = false;
+  bool meshes = false;      ///< the number of vertices can be chosen
+  bool all_layers = false;  ///< meshes of all layers, at any rate of frames
+};
+/// All formats, films last.
+const std::vector<ExportFormat>& export_formats();
+/// Throws Error with a list of all formats if there is none with this name.
+const ExportFormat& export_format_named(const std::string& id);
+/// The names of all formats, separated by commas.
+std::string export_format_names();
+
+}  // namespace holomorph

@@ -1,0 +1,173 @@
+// Some formats consist of several files, which lie next to each other.
+#include "exports/mesh_export.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+#include "film/film_writer.h"
+#include "scene/budget.h"
+#include "scene/formats/surface_file.h"
+#include "scene/keyframes.h"
+#include "scene/layers.h"
+
+namespace holomorph {
+namespace {
+
+std::string two_digits(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", number);
+  return text;
+}
+
+/// The textures of all meshes next to the main file, by file name; "" for a mesh without one.
+std::vector<std::string> add_textures(const MovingMeshes& moving, const Path& out,
+                                      MeshFiles& files) {
+  std::vector<std::string> names;
+  const std::vector<std::string> meshes = unique_names(moving);
+  for (size_t i = 0; i < moving.meshes.size(); ++i) {
+    names.emplace_back();
+    if (moving.meshes[i].texture.width == 0) continue;
+    names.back() = out.stem().string() + "-" + meshes[i] + ".png";
+    files.emplace_back(out.parent_path() / names.back(), encode_png(moving.meshes[i].texture));
+  }
+  return names;
+}
+
+/// A sequence of OBJ files that share a material.
+MeshFiles obj_files(const MovingMeshes& moving, const Path& out, int first) {
+  const MovingMesh& mesh = moving.meshes[0];
+  const auto with = [&](const char* extension) { return Path(out).replace_extension(extension); };
+  Points coordinates;
+  for (const Complex& z : mesh.rest) coordinates.push_back(texture_coordinate(mesh, z));
+  MeshFiles files;
+  for (size_t k = 0; k < mesh.frames.size(); ++k) {
+    Surface surface;
+    for (const Complex& z : mesh.frames[k]) surface.vertices.push_back({z.real(), z.imag(), 0});
+    surface.triangles = mesh.triangles;
+    files.emplace_back(numbered(out, first + static_cast<int>(k)),
+                       obj_of(surface, coordinates, with(".mtl").filename().string()));
+  }
+  if (mesh.texture.width == 0) {
+    files.emplace_back(with(".mtl"), material_of(""));
+    return files;
+  }
+  const Path texture = out.parent_path() / (out.stem().string() + "-texture.png");
+  files.emplace_back(with(".mtl"), material_of(texture.filename().string()));
+  files.emplace_back(texture, encode_png(mesh.texture));
+  return files;
+}
+
+/// The times of all keyframes between two times, and these two.
+std::vector<double> key_times(const Scene& scene, double from, double to) {
+  std::vector<double> times{from, to};
+  for (const SharedLayer& layer : scene.layers)
+    for (const Keyframe& key : layer->deformation.keyframes)
+      if (from < key.time && key.time < to) times.push_back(key.time);
+  return times;
+}
+
+}  // namespace
+
+MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted) {
+  const ExportFormat& format = export_format_named(wanted.format);
+  MovingMeshOptions options;
+  options.vertices = wanted.vertices;
+  options.edited_only = !format.all_layers;
+  if (wanted.time) options.times = {*wanted.time};
+  if (wanted.time || (!wanted.frames && !plays(scene))) {
+    if (wanted.rate || wanted.keys)
+      throw Error(ErrorKind::bad_input,
+                  "--rate and --keys are for a motion; the export has a single moment");
+    return options;
+  }
+  const double rate = scene.animation.frames_per_second;
+  const auto [first, last] = wanted.frames.value_or(std::pair(0, last_frame_of(scene)));
+  std::vector<double> frames;
+  for (int i = first; i <= last; ++i) frames.push_back(i / rate);
+  if (wanted.keys) {
+    options.times = key_times(scene, frames.front(), frames.back());
+  } else if (wanted.rate) {
+    const double length = frames.back() - frames.front();
+    check_budget(&Budget::frames, length * *wanted.rate, "the export has");
+    for (int k = 0; k < length * *wanted.rate - 1e-6; ++k)
+      options.times.push_back(frames.front() + k / *wanted.rate);
+    options.times.push_back(frames.back());
+  } else {
+    options.times = frames;
+  }
+  std::ranges::sort(options.times);
+  options.times.erase(std::unique(options.times.begin(), options.times.end()), options.times.end());
+  check_budget(&Budget::frames, static_cast<double>(options.times.size()), "the export has");
+  if (!format.all_layers) return options;
+  options.checked = frames;
+  for (size_t i = 0; i + 1 < options.times.size(); ++i)
+    options.checked.push_back(0.5 * (options.times[i] + options.times[i + 1]));
+  return options;
+}
+
+bool is_sequence(const MeshExport& wanted) {
+  return wanted.format == "obj";
+}
+
+MeshFiles mesh_files_of(const MovingMeshes& moving, const MeshExport& wanted) {
+  const Path& out = wanted.out;
+  const std::string& format = wanted.format;
+  if (format == "obj") return obj_files(moving, out, wanted.frames ? wanted.frames->first : 0);
+  if (format == "glb") return {{out, glb_of(moving)}};
+  if (format == "mdd") return {{out, mdd_of(moving.meshes[0], moving.times)}};
+  if (format == "pc2") return {{out, pc2_of(moving.meshes[0], moving.times)}};
+  MeshFiles files{{out, ""}};
+  const std::vector<std::string> textures = add_textures(moving, out, files);
+  files[0].second = format == "godot" ? godot_of(moving, textures) : spine_of(moving, textures);
+  return files;
+}
+
+std::optional<double> sufficient_rate(const MovingMeshes& moving) {
+  if (moving.times.size() < 2 || moving.error <= kVisibleError ||
+      moving.frame_error >= kVisibleError)
+    return {};
+  // Between frames, the error of linear interpolation falls with the square of the rate.
+  double longest = 0;
+  for (size_t i = 0; i + 1 < moving.times.size(); ++i)
+    longest = std::max(longest, moving.times[i + 1] - moving.times[i]);
+  const double finer =
+      std::sqrt((moving.error - moving.frame_error) / (kVisibleError - moving.frame_error));
+  return std::ceil(1.1 * finer / longest);
+}
+
+std::string mesh_counts(const MovingMeshes& moving) {
+  size_t vertices = 0;
+  for (const MovingMesh& mesh : moving.meshes) vertices += mesh.rest.size();
+  const auto counted = [](size_t count, const char* one, const char* more) {
+    return std::to_string(count) + " " + (count == 1 ? one : more);
+  };
+  return counted(moving.meshes.size(), "mesh", "meshes") + ", " +
+         counted(vertices, "vertex", "vertices") + ", " +
+         counted(moving.times.size(), "frame", "frames");
+}
+
+std::string mesh_error_text(const MovingMeshes& moving) {
+  std::string text;
+  if (moving.frame_error > 0)
+    text += ", at most " + two_digits(moving.frame_error) + " px off at the frames";
+  if (moving.times.size() > 1 && moving.error > moving.frame_error)
+    text += ", at most " + two_digits(moving.error) + " px off between frames";
+  return text;
+}
+
+std::vector<std::string> mesh_losses_of(const Scene& scene) {
+  std::vector<std::string> losses;
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = *scene.layers[i];
+    if (!is_shown(scene, i)) continue;
+    if (clip_base(scene, i))
+      losses.push_back(title_of_layer(scene, i) + ": its clipping is not kept");
+    if (layer.blending != Blending::normal)
+      losses.push_back(title_of_layer(scene, i) + ": its blending mode is not kept");
+  }
+  return losses;
+}
+
+}  // namespace holomorph

@@ -1,0 +1,47 @@
+// Exports of moving meshes: glTF, vertex caches, Godot, Spine and sequences of OBJ files.
+#pragma once
+
+#include "exports/export_formats.h"
+#include "raster/moving_meshes.h"
+#include "system/file.h"
+
+namespace holomorph {
+
+/// What is exported, in a format for which ExportFormat::meshes is set, and at which times.
+struct MeshExport {
+  std::string format;  ///< its id
+  Path out;
+  std::optional<size_t> vertices = {};  ///< of each layer; by default those of its own mesh
+  std::optional<double> time = {};      ///< a single moment in seconds
+  /// The first and the last frame. If neither this nor the time is set: all frames or, if nothing
+  /// moves, the scene's own pose.
+  std::optional<std::pair<int, int>> frames = {};
+  std::optional<double> rate = {};  ///< frames per second, instead of the scene's
+  bool keys = false;                ///< only at keyframes
+
+  bool operator==(const MeshExport&) const = default;
+};
+
+/// Throws Error if the times make no sense, or if there are too many.
+MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted);
+
+/// The files of an export and what they contain. What the first one refers to comes after it.
+using MeshFiles = std::vector<std::pair<Path, std::string>>;
+MeshFiles mesh_files_of(const MovingMeshes& moving, const MeshExport& wanted);
+/// A sequence of OBJ files has one for each frame, numbered from the first frame.
+bool is_sequence(const MeshExport& wanted);
+
+/// The error above which a motion visibly differs, in pixels.
+inline constexpr double kVisibleError = 0.5;
+/// The rate of frames with which the error between frames is not visible. None if it is not visible
+/// anyway, or if it is visible at the frames, too.
+std::optional<double> sufficient_rate(const MovingMeshes& moving);
+/// Such as "3 meshes, 1200 vertices, 49 frames".
+std::string mesh_counts(const MovingMeshes& moving);
+/// Such as ", at most 0.2 px off at the frames"; empty if they are exact.
+std::string mesh_error_text(const MovingMeshes& moving);
+
+/// What the formats for engines cannot express, such as "Hat: its clipping is not kept".
+std::vector<std::string> mesh_losses_of(const Scene& scene);
+
+}  // namespace holomorph

@@ -1,0 +1,17 @@
+// ST-maps as files, in OpenEXR or NumPy.
+#pragma once
+
+#include "raster/st_map.h"
+#include "system/file.h"
+
+namespace holomorph {
+
+/// Whether a file of an ST-map is OpenEXR instead of NumPy, which names without an extension are.
+/// Throws Error for other extensions.
+bool is_exr(const Path& out);
+
+/// The bytes of an ST-map's file. OpenEXR has channels in the usual order, in half or single
+/// precision, and finite values everywhere.
+std::string st_map_bytes(StMap map, const Path& out, FloatBits bits);
+
+}  // namespace holomorph
