@@ -70,7 +70,7 @@ void export_frames(const LoadedScene& loaded, const ExportCommand& command, cons
 
 void export_st_maps(const LoadedScene& loaded, const ExportCommand& command) {
   require_cage(loaded.scene, command.scene);
-  if (command.half && !is_exr(command.out))
+  if (command.half && !is_exr_name(command.out))
     throw Error(ErrorKind::bad_input, "--half needs an OpenEXR file; end the name with .exr");
   const Image none, &picture = loaded.image() ? *loaded.image() : none;
   const StMapOptions options{command.format == "unwarp-map", command.scale.value_or(1),

@@ -7,7 +7,7 @@
 
 namespace holomorph {
 
-bool is_exr(const Path& out) {
+bool is_exr_name(const Path& out) {
   const std::string extension = lower_case(out.extension().string());
   if (!extension.empty() && extension != ".exr" && extension != ".npy")
     throw Error(ErrorKind::bad_input,
@@ -18,7 +18,7 @@ bool is_exr(const Path& out) {
 }
 
 std::string st_map_bytes(StMap map, const Path& out, FloatBits bits) {
-  if (!is_exr(out))
+  if (!is_exr_name(out))
     return npy_of(map.st, static_cast<size_t>(map.height), static_cast<size_t>(map.width), 2);
   extend(map);
   return exr_of(float_image_of(std::move(map)), bits);

@@ -8,7 +8,7 @@ namespace holomorph {
 
 /// Whether a file of an ST-map is OpenEXR instead of NumPy, which names without an extension are.
 /// Throws Error for other extensions.
-bool is_exr(const Path& out);
+bool is_exr_name(const Path& out);
 
 /// The bytes of an ST-map's file. OpenEXR has channels in the usual order, in half or single
 /// precision, and finite values everywhere.

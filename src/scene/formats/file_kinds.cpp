@@ -14,6 +14,7 @@ const std::vector<FileKind>& file_kinds() {
                                          {{".webp"}, FileContent::picture},
                                          {{".tif", ".tiff"}, FileContent::picture},
                                          {{".ora"}, FileContent::picture},
+                                         {{".exr"}, FileContent::picture},
                                          {{".psd"}, FileContent::picture},
                                          {{".gif"}, FileContent::picture},
                                          {{".bmp"}, FileContent::picture},

@@ -68,13 +68,14 @@ Image decode_image(const std::string& bytes, const std::string& name, PixelBudge
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name, pixels);
   if (is_webp(bytes)) return decode_webp(bytes, name, pixels);
   if (is_tiff(bytes)) return decode_tiff(bytes, name, pixels);
+  if (is_exr(bytes)) return decode_exr(bytes, name, pixels);
   if (is_gif(bytes)) return decode_gif(bytes, name, pixels);
   if (is_ora(bytes)) return decode_ora(bytes, name, pixels);
   if (std::optional<Image> plain = decode_plain(bytes, name, pixels)) return std::move(*plain);
   throw Error(ErrorKind::bad_input,
               name +
                   ": not a picture in a supported format (PNG, JPEG, WebP, TIFF, OpenRaster, "
-                  "BMP, TGA, GIF or PSD)");
+                  "OpenEXR, BMP, TGA, GIF or PSD)");
 }
 
 namespace {

@@ -17,6 +17,8 @@ bool is_webp(const std::string& bytes);
 Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 bool is_tiff(const std::string& bytes);
 Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget& pixels);
+bool is_exr(const std::string& bytes);
+Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 bool is_gif(const std::string& bytes);
 Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 /// OpenRaster: the merged picture of all layers that the file contains.

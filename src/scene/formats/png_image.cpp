@@ -1,7 +1,8 @@
-// Reads PNG files from memory with libpng. Any bit depth is converted to 8 bits. The result is
-// upright and in sRGB.
+// Reads PNG files from memory with libpng. Any bit depth is converted to 8 bits, after colors are
+// converted to sRGB. The result is upright.
 #include <png.h>
 
+#include <bit>
 #include <csetjmp>
 #include <cstring>
 
@@ -27,16 +28,22 @@ class PngReader {
 
   Image read(PixelBudget& pixels) {
     run(&PngReader::read_header);
-    pixels.take(width_, height_, name_);
+    constexpr double kDeepCopies = 3;  // two bytes instead of one, and the result
+    pixels.take(width_, height_, name_, is_deep() ? kDeepCopies : 1);
     run(&PngReader::prepare);
-    image_ = Image(static_cast<int>(width_), static_cast<int>(height_));
+    const int width = static_cast<int>(width_), height = static_cast<int>(height_);
+    const size_t row = 4 * static_cast<size_t>(width_);
     rows_.resize(height_);
-    for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = image_.at(0, static_cast<int>(r));
+    if (is_deep()) {
+      deep_ = {width, height, std::vector<std::uint16_t>(row * height_)};
+      for (size_t r = 0; r < rows_.size(); ++r)
+        rows_[r] = reinterpret_cast<png_bytep>(&deep_.pixels[row * r]);
+    } else {
+      image_ = Image(width, height);
+      for (size_t r = 0; r < rows_.size(); ++r) rows_[r] = &image_.pixels[row * r];
+    }
     run(&PngReader::read_pixels);
-    if (profile_size_ > 0)
-      to_srgb(image_, std::string(reinterpret_cast<const char*>(profile_), profile_size_));
-    else if (gamma_ > 0)
-      to_srgb(image_, primaries_, gamma_);
+    convert();
     const int orientation =
         exif_ ? orientation_of_exif("Exif" + std::string(2, '\0') +
                                     std::string(reinterpret_cast<const char*>(exif_), exif_size_))
@@ -45,6 +52,20 @@ class PngReader {
   }
 
  private:
+  /// Whether the samples have 16 bits and must be converted.
+  bool is_deep() const { return depth_ == 16 && (profile_size_ > 0 || gamma_ > 0); }
+
+  void convert() {
+    const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
+    if (is_deep())
+      image_ = profile_size_ > 0 ? in_srgb(deep_, profile) : in_srgb(deep_, primaries_, gamma_);
+    else if (profile_size_ > 0)
+      to_srgb(image_, profile);
+    else if (gamma_ > 0)
+      to_srgb(image_, primaries_, gamma_);
+    deep_ = {};
+  }
+
   void run(void (PngReader::*step)()) {
     if (setjmp(png_jmpbuf(png_)) == 0)
       (this->*step)();
@@ -77,8 +98,8 @@ class PngReader {
     png_set_chunk_malloc_max(png_, kLargestChunk);
     png_set_chunk_cache_max(png_, 1);  // text chunks are not needed
     png_read_info(png_, info_);
-    int depth = 0, colors = 0;
-    png_get_IHDR(png_, info_, &width_, &height_, &depth, &colors, nullptr, nullptr, nullptr);
+    int colors = 0;
+    png_get_IHDR(png_, info_, &width_, &height_, &depth_, &colors, nullptr, nullptr, nullptr);
     read_colors();
   }
 
@@ -86,12 +107,15 @@ class PngReader {
   /// size must have been checked before.
   void prepare() {
     png_set_expand(png_);
-    png_set_scale_16(png_);
+    if (!is_deep())
+      png_set_scale_16(png_);
+    else if constexpr (std::endian::native == std::endian::little)
+      png_set_swap(png_);
     png_set_gray_to_rgb(png_);
-    png_set_add_alpha(png_, 255, PNG_FILLER_AFTER);
+    png_set_add_alpha(png_, is_deep() ? 65535 : 255, PNG_FILLER_AFTER);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
-    if (png_get_rowbytes(png_, info_) != 4 * static_cast<size_t>(width_))
+    if (png_get_rowbytes(png_, info_) != (is_deep() ? 8 : 4) * static_cast<size_t>(width_))
       png_error(png_, "its rows have an unknown format");
   }
 
@@ -117,6 +141,7 @@ class PngReader {
   const std::string& name_;
   size_t at_ = 0;
   bool ended_ = false;
+  int depth_ = 8;
   char message_[200] = "";
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
@@ -128,6 +153,7 @@ class PngReader {
   png_bytep exif_ = nullptr;  ///< owned by libpng
   png_uint_32 exif_size_ = 0;
   Image image_;
+  DeepImage deep_;  ///< the samples, if they are deep
   std::vector<png_bytep> rows_;
 };
 

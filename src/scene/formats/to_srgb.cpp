@@ -63,6 +63,67 @@ void convert_gray(Image& image, const Conversion& conversion) {
     std::copy_n(colors + 4 * static_cast<size_t>(image.pixels[i]), 3, &image.pixels[i]);
 }
 
+/// The nearest picture with 8 bits.
+Image rounded(const DeepImage& deep) {
+  Image image(deep.width, deep.height);
+  constexpr unsigned kStep = 257;  // of 16 bits per step of 8 bits
+  for (size_t i = 0; i < deep.pixels.size(); ++i)
+    image.pixels[i] = static_cast<std::uint8_t>((deep.pixels[i] + kStep / 2) / kStep);
+  return image;
+}
+
+Image converted(const DeepImage& deep, const Profile& profile) {
+  Image image = rounded(deep);
+  const Conversion narrow = conversion(profile, TYPE_RGBA_8),
+                   wide = conversion(profile, TYPE_RGBA_16);
+  if (!narrow || !wide || is_identity(narrow)) return image;
+  for (int r = 0; r < image.height; ++r)
+    cmsDoTransform(wide.get(),
+                   &deep.pixels[4 * static_cast<size_t>(r) * static_cast<size_t>(deep.width)],
+                   image.at(0, r), static_cast<cmsUInt32Number>(image.width));
+  return image;
+}
+
+Conversion gray_conversion(const Profile& profile, cmsUInt32Number format) {
+  const Profile srgb(cmsCreate_sRGBProfile());
+  return Conversion(cmsCreateTransform(profile.get(), format, srgb.get(), TYPE_RGBA_8,
+                                       INTENT_RELATIVE_COLORIMETRIC,
+                                       cmsFLAGS_BLACKPOINTCOMPENSATION));
+}
+
+/// Like converted(), for a gray profile.
+Image converted_gray(const DeepImage& deep, const Profile& profile) {
+  Image image = rounded(deep);
+  const Conversion gray = gray_conversion(profile, TYPE_GRAY_16);
+  if (!gray) return image;
+  std::vector<std::uint16_t> grays(1 << 16);
+  for (size_t i = 0; i < grays.size(); ++i) grays[i] = static_cast<std::uint16_t>(i);
+  std::vector<std::uint8_t> colors(4 * grays.size());
+  cmsDoTransform(gray.get(), grays.data(), colors.data(),
+                 static_cast<cmsUInt32Number>(grays.size()));
+  for (size_t i = 0; i < image.pixels.size(); i += 4)
+    std::copy_n(&colors[4 * static_cast<size_t>(deep.pixels[i])], 3, &image.pixels[i]);
+  return image;
+}
+
+/// The profile of a PNG file without one; null if the gamma makes no sense.
+Profile profile_of(const Chromaticities& p, double gamma) {
+  if (!(gamma > 0.01 && gamma < 100)) return {};
+  cmsCIExyY white{p.white[0], p.white[1], 1};
+  cmsCIExyYTRIPLE primaries{
+      {p.red[0], p.red[1], 1}, {p.green[0], p.green[1], 1}, {p.blue[0], p.blue[1], 1}};
+  // sRGB files specify a gamma of 1 / 2.2.
+  constexpr double kLikeSrgb = 0.005;
+  const double srgb[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
+  cmsToneCurve* curve = std::abs(gamma - 1 / 2.2) < kLikeSrgb
+                            ? cmsBuildParametricToneCurve(nullptr, 4, srgb)
+                            : cmsBuildGamma(nullptr, 1 / gamma);
+  cmsToneCurve* curves[3] = {curve, curve, curve};
+  Profile profile(curve ? cmsCreateRGBProfile(&white, &primaries, curves) : nullptr);
+  if (curve) cmsFreeToneCurve(curve);
+  return profile;
+}
+
 /// The color space in a profile's header, such as "RGB " or "GRAY". lcms returns an enumerator,
 /// even if a hostile profile has another value.
 std::string color_space_of(const std::string& profile) {
@@ -79,29 +140,27 @@ void to_srgb(Image& image, const std::string& bytes) {
   if (colors == "RGB ") {
     convert(image, conversion(profile, TYPE_RGBA_8));
   } else if (colors == "GRAY") {
-    const Profile srgb(cmsCreate_sRGBProfile());
-    const Conversion gray(cmsCreateTransform(profile.get(), TYPE_GRAY_8, srgb.get(), TYPE_RGBA_8,
-                                             INTENT_RELATIVE_COLORIMETRIC,
-                                             cmsFLAGS_BLACKPOINTCOMPENSATION));
+    const Conversion gray = gray_conversion(profile, TYPE_GRAY_8);
     if (gray) convert_gray(image, gray);
   }
 }
 
-void to_srgb(Image& image, const Chromaticities& p, double gamma) {
-  if (!(gamma > 0.01 && gamma < 100)) return;
-  cmsCIExyY white{p.white[0], p.white[1], 1};
-  cmsCIExyYTRIPLE primaries{
-      {p.red[0], p.red[1], 1}, {p.green[0], p.green[1], 1}, {p.blue[0], p.blue[1], 1}};
-  // sRGB files specify a gamma of 1 / 2.2.
-  constexpr double kLikeSrgb = 0.005;
-  const double srgb[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
-  cmsToneCurve* curve = std::abs(gamma - 1 / 2.2) < kLikeSrgb
-                            ? cmsBuildParametricToneCurve(nullptr, 4, srgb)
-                            : cmsBuildGamma(nullptr, 1 / gamma);
-  cmsToneCurve* curves[3] = {curve, curve, curve};
-  const Profile profile(curve ? cmsCreateRGBProfile(&white, &primaries, curves) : nullptr);
-  if (curve) cmsFreeToneCurve(curve);
-  if (profile) convert(image, conversion(profile, TYPE_RGBA_8));
+Image in_srgb(const DeepImage& image, const std::string& bytes) {
+  const Profile profile = opened(bytes);
+  const std::string colors = color_space_of(bytes);
+  if (profile && colors == "RGB ") return converted(image, profile);
+  if (profile && colors == "GRAY") return converted_gray(image, profile);
+  return rounded(image);
+}
+
+void to_srgb(Image& image, const Chromaticities& primaries, double gamma) {
+  if (const Profile profile = profile_of(primaries, gamma))
+    convert(image, conversion(profile, TYPE_RGBA_8));
+}
+
+Image in_srgb(const DeepImage& image, const Chromaticities& primaries, double gamma) {
+  const Profile profile = profile_of(primaries, gamma);
+  return profile ? converted(image, profile) : rounded(image);
 }
 
 struct CmykToSrgb::Transform {

@@ -14,6 +14,14 @@ namespace holomorph {
 /// sRGB by at most one step.
 void to_srgb(Image& image, const std::string& profile);
 
+/// A picture of 16-bit straight-alpha RGBA pixels, in the byte order of the machine.
+struct DeepImage {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> pixels;  ///< 4 per pixel
+};
+/// The same picture in sRGB with 8 bits. Dark linear colors keep steps that 8 bits would lose.
+Image in_srgb(const DeepImage& image, const std::string& profile);
+
 /// Converts 8-bit CMYK, in which 255 means no ink, to opaque RGBA. Uses the profile only if it is a
 /// CMYK profile.
 class CmykToSrgb {
@@ -34,5 +42,6 @@ struct Chromaticities {
          blue[2] = {0.15, 0.06};
 };
 void to_srgb(Image& image, const Chromaticities& primaries, double gamma);
+Image in_srgb(const DeepImage& image, const Chromaticities& primaries, double gamma);
 
 }  // namespace holomorph

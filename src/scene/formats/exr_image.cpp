@@ -1,0 +1,124 @@
+// Reads OpenEXR files from memory with the library OpenEXR. Their colors are linear and
+// premultiplied; what is brighter than white becomes white.
+#include <Iex.h>
+#include <ImfChromaticitiesAttribute.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "scene/formats/image_formats.h"
+
+namespace holomorph {
+namespace {
+
+class BytesStream : public Imf::IStream {
+ public:
+  BytesStream(const std::string& bytes, const std::string& name)
+      : IStream(name.c_str()), bytes_(bytes) {}
+  bool read(char* out, int count) override {
+    if (count < 0 || static_cast<size_t>(count) > bytes_.size() - at_)
+      throw Iex::InputExc("the file ends too early");
+    std::memcpy(out, bytes_.data() + at_, static_cast<size_t>(count));
+    at_ += static_cast<size_t>(count);
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t at) override {
+    if (at > bytes_.size()) throw Iex::InputExc("the file ends too early");
+    at_ = at;
+  }
+
+ private:
+  const std::string& bytes_;
+  size_t at_ = 0;
+};
+
+/// The matrix from a file's linear colors, as row vectors, to those of sRGB. Colors are adapted to
+/// the other white as proposed by Bradford.
+Imath::M33f to_linear_srgb(const Imf::Chromaticities& from) {
+  const Imf::Chromaticities srgb;
+  const auto part = [](const Imath::M44f& m) {
+    return Imath::M33f(m[0][0], m[0][1], m[0][2], m[1][0], m[1][1], m[1][2], m[2][0], m[2][1],
+                       m[2][2]);
+  };
+  const Imath::M33f cones(0.8951f, -0.7502f, 0.0389f, 0.2664f, 1.7135f, -0.0685f, -0.1614f, 0.0367f,
+                          1.0296f);
+  const auto white = [&](const Imf::Chromaticities& colors) {
+    const Imath::V2f& w = colors.white;
+    return Imath::V3f(w.x / w.y, 1, (1 - w.x - w.y) / w.y) * cones;
+  };
+  const Imath::V3f scale = white(srgb) / white(from);
+  const Imath::M33f adapted(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
+  return part(Imf::RGBtoXYZ(from, 1)) * cones * adapted * cones.inverse() *
+         part(Imf::XYZtoRGB(srgb, 1));
+}
+
+std::uint8_t srgb_byte(float linear) {
+  const float x = linear > 0 ? std::min(linear, 1.0f) : 0;  // also for NaN
+  const float value = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(255 * value));
+}
+
+/// The display window of a file, transparent where it has no pixels.
+Image read_display(Imf::RgbaInputFile& file, const std::string& name, PixelBudget& pixels) {
+  const Imath::Box2i shown = file.displayWindow(), stored = file.dataWindow();
+  if ((file.channels() & (Imf::WRITE_RGB | Imf::WRITE_YC)) == 0)
+    throw Error(ErrorKind::bad_input, name + ": the OpenEXR file has no colors");
+  const auto side = [](int low, int high) {
+    return static_cast<size_t>(std::max<std::int64_t>(std::int64_t{high} - low + 1, 0));
+  };
+  pixels.take(side(shown.min.x, shown.max.x), side(shown.min.y, shown.max.y), name);
+  Image image(shown.max.x - shown.min.x + 1, shown.max.y - shown.min.y + 1);
+  const bool is_srgb = !Imf::hasChromaticities(file.header());
+  const Imath::M33f matrix =
+      is_srgb ? Imath::M33f() : to_linear_srgb(Imf::chromaticities(file.header()));
+  std::vector<Imf::Rgba> row(side(stored.min.x, stored.max.x));
+  const int left = std::max(shown.min.x, stored.min.x), right = std::min(shown.max.x, stored.max.x);
+  for (int y = std::max(shown.min.y, stored.min.y); y <= std::min(shown.max.y, stored.max.y); ++y) {
+    file.setFrameBuffer(row.data() - stored.min.x, 1, 0);
+    file.readPixels(y);
+    for (int x = left; x <= right; ++x) {
+      const Imf::Rgba& pixel = row[static_cast<size_t>(x - stored.min.x)];
+      const float alpha = pixel.a > 0 ? std::min(static_cast<float>(pixel.a), 1.0f) : 0;
+      if (alpha == 0) continue;
+      Imath::V3f color(pixel.r, pixel.g, pixel.b);
+      color /= alpha;
+      if (!is_srgb) color = color * matrix;
+      std::uint8_t* out = image.at(x - shown.min.x, y - shown.min.y);
+      for (int k = 0; k < 3; ++k) out[k] = srgb_byte(color[k]);
+      out[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+bool is_exr(const std::string& bytes) {
+  return bytes.starts_with("\x76\x2f\x31\x01");
+}
+
+Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  constexpr int kLargest = 16384, kLargestTile = 2048;
+  static const bool limited = [] {  // headers must not make the library allocate more
+    Imf::Header::setMaxImageSize(kLargest, kLargest);
+    Imf::Header::setMaxTileSize(kLargestTile, kLargestTile);
+    return true;
+  }();
+  check(limited, "decode_exr: limits are set");
+  try {
+    BytesStream stream(bytes, name);
+    Imf::RgbaInputFile file(stream);
+    return read_display(file, name, pixels);
+  } catch (const Iex::BaseExc& error) {
+    throw Error(ErrorKind::bad_input, name + ": the picture is damaged (" + error.what() + ")");
+  }
+}
+
+}  // namespace holomorph

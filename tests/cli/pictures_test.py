@@ -1,0 +1,136 @@
+# Pictures with more than 8 bits, written by other programs: linear colors become sRGB.
+import os
+import random
+import struct
+import subprocess
+import sys
+import unittest
+import zlib
+
+import numpy
+from PIL import Image
+
+from case import Case
+
+
+def srgb(linear):
+    x = numpy.clip(linear, 0, 1)
+    return 255 * numpy.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+
+
+def linear(srgb):
+    x = srgb / 255
+    return numpy.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
+
+
+def png16(samples, gamma=None, chromaticities=None):
+    """A PNG file of 16-bit samples: height x width x channels."""
+    def chunk(name, content):
+        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
+    height, width, channels = samples.shape
+    rows = b"".join(b"\0" + row.astype(">u2").tobytes() for row in samples)
+    file = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 16, {1: 0, 2: 4, 3: 2, 4: 6}[channels], 0, 0, 0))
+    if gamma:
+        file += chunk(b"gAMA", struct.pack(">I", round(gamma * 100000)))
+    if chromaticities:
+        file += chunk(b"cHRM", struct.pack(">8I", *(round(x * 100000) for x in chromaticities)))
+    return file + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+class DeepPictures(Case):
+    def setUp(self):
+        super().setUp()
+        seed = random.randrange(1 << 30)
+        print(f"seed {seed}")
+        self.rng = numpy.random.default_rng(seed)
+
+    def shown(self, name):
+        """The picture as the program reads it."""
+        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": name}})
+        self.good("render", scene, "--out", self.path("out.png"), "--force")
+        return numpy.asarray(Image.open(self.path("out.png")).convert("RGBA")).astype(float)
+
+    def oiio(self, *words):
+        subprocess.run(["oiiotool", *words], check=True, cwd=self.folder, capture_output=True)
+
+    def random_picture(self, opaque=False):
+        pixels = self.rng.integers(0, 256, (37, 53, 4)).astype(numpy.uint8)
+        if opaque:
+            pixels[..., 3] = 255
+        Image.fromarray(pixels).save(self.path("in.png"))
+        return pixels.astype(float)
+
+    def test_open_exr_of_every_kind(self):
+        pixels = self.random_picture()
+        solid = pixels[..., 3:] > 40  # below, premultiplied half floats have few steps
+        for words in (["-d", "half", "--compression", "zip"], ["-d", "float", "--compression", "piz"],
+                      ["-d", "float", "--compression", "none"], ["-d", "half", "--compression", "rle", "--tile", "16", "16"]):
+            self.oiio("in.png", "--colorconvert", "sRGB", "linear", *words, "-o", "in.exr")
+            shown = self.shown("in.exr")
+            self.assertLessEqual(numpy.abs(shown - pixels)[..., 3].max(), 1, words)
+            self.assertLessEqual((numpy.abs(shown - pixels) * solid).max(), 1, words)
+
+    def test_gray_and_opaque_open_exr(self):
+        pixels = self.random_picture(opaque=True)
+        self.oiio("in.png", "--ch", "R,G,B", "--colorconvert", "sRGB", "linear", "-o", "rgb.exr")
+        self.assertLessEqual(numpy.abs(self.shown("rgb.exr") - pixels).max(), 1)
+        self.oiio("in.png", "--ch", "Y=R", "--colorconvert", "sRGB", "linear", "-o", "gray.exr")
+        gray = self.shown("gray.exr")
+        self.assertLessEqual(numpy.abs(gray[..., :3] - pixels[..., :1]).max(), 1)
+
+    def test_only_the_display_window_is_shown(self):
+        pixels = self.random_picture(opaque=True)
+        self.oiio("in.png", "--colorconvert", "sRGB", "linear", "--origin", "+10-5", "--fullsize", "60x30+0+0", "-o", "moved.exr")
+        shown = self.shown("moved.exr")
+        self.assertEqual(shown.shape, (30, 60, 4))
+        self.assertLessEqual(numpy.abs(shown[:, 10:] - pixels[5:35, :50]).max(), 1)
+        self.assertEqual(shown[:, :10].max(), 0)
+
+    def test_other_primaries_and_bright_colors(self):
+        # Rec. 2020 has the same white, so the matrix follows from the primaries alone.
+        to_srgb = numpy.array([[1.6605, -0.5876, -0.0728], [-0.1246, 1.1329, -0.0083], [-0.0182, -0.1006, 1.1187]])
+        colors = self.rng.uniform(0, 1.2, (20, 30, 3))
+        Image.fromarray((255 * numpy.clip(colors / 1.2, 0, 1)).round().astype(numpy.uint8)).save(self.path("c.png"))
+        stored = 1.2 * (255 * numpy.clip(colors / 1.2, 0, 1)).round() / 255
+        exact = srgb(stored @ to_srgb.T)
+        self.oiio("c.png", "--mulc", "1.2", "-d", "float", "--attrib:type=float[8]", "chromaticities",
+                  "0.708,0.292,0.170,0.797,0.131,0.046,0.3127,0.3290", "-o", "wide.exr")
+        self.assertLessEqual(numpy.abs(self.shown("wide.exr")[..., :3] - exact).max(), 1)
+
+    def test_damaged_and_useless_open_exr_is_refused(self):
+        self.random_picture()
+        self.oiio("in.png", "-o", "in.exr")
+        with open(self.path("in.exr"), "rb") as file:
+            whole = file.read()
+        for length in (4, 50, 300, len(whole) // 2, len(whole) - 10):
+            with open(self.path("cut.exr"), "wb") as file:
+                file.write(whole[:length])
+            scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "cut.exr"}})
+            self.bad("render", scene, "--out", self.path("out.png"), "--force", says="cut.exr")
+        self.oiio("in.png", "--ch", "Z=R", "-o", "depth.exr")
+        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "depth.exr"}})
+        self.bad("render", scene, "--out", self.path("out.png"), "--force", says="has no colors")
+
+    def test_linear_png_of_16_bits_keeps_dark_steps(self):
+        wanted = numpy.arange(256.0).reshape(8, 32)
+        samples = (65535 * linear(wanted)).round()
+        for channels in (1, 3):
+            with open(self.path("dark.png"), "wb") as file:
+                file.write(png16(numpy.repeat(samples[..., None], channels, 2), 1))
+            self.assertLessEqual(numpy.abs(self.shown("dark.png")[..., :3] - wanted[..., None]).max(), 1)
+            self.assertEqual(self.shown("dark.png")[..., 3].min(), 255)
+        colors = self.rng.integers(0, 65536, (20, 20, 4))
+        with open(self.path("plain.png"), "wb") as file:
+            file.write(png16(colors))
+        self.assertLessEqual(numpy.abs(self.shown("plain.png") - colors / 257).max(), 0.51)
+        wide = (0.3127, 0.3290, 0.708, 0.292, 0.170, 0.797, 0.131, 0.046)
+        to_srgb = numpy.array([[1.6605, -0.5876, -0.0728], [-0.1246, 1.1329, -0.0083], [-0.0182, -0.1006, 1.1187]])
+        with open(self.path("wide.png"), "wb") as file:
+            file.write(png16(colors, 1, wide))
+        shown = self.shown("wide.png")
+        self.assertLessEqual(numpy.abs(shown[..., :3] - srgb(colors[..., :3] / 65535 @ to_srgb.T)).max(), 1.6)
+        self.assertLessEqual(numpy.abs(shown[..., 3] - colors[..., 3] / 257).max(), 0.51)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
