@@ -18,7 +18,8 @@ const std::vector<ExportFormat>& export_formats() {
          .writes = "the bent mesh",
          .time = true,
          .frames = true,
-         .meshes = true},
+         .meshes = true,
+         .sequence = true},
         {.id = "svg", .extensions = {".svg"}, .writes = "the cage", .time = true},
         {.id = "npy", .extensions = {".npy"}, .writes = "the vertices of the mesh", .time = true},
         {.id = "png",
@@ -66,7 +67,9 @@ const std::vector<ExportFormat>& export_formats() {
     };
     add_meshes("glb", "Moving meshes (glTF)", ".glb", "the moving layers as glTF", true);
     add_meshes("godot", "Godot 3 scene", ".tscn", "the moving layers as a scene of Godot 3", true);
+    formats.back().textures = true;
     add_meshes("spine", "Spine skeleton", ".json", "the moving layers as a Spine skeleton", true);
+    formats.back().textures = true;
     add_meshes("mdd", "Vertex cache (MDD)", ".mdd", "the moving vertices of the mesh", false);
     add_meshes("pc2", "Vertex cache (PC2)", ".pc2", "the moving vertices of the mesh", false);
     for (const LayeredFormat& layered : layered_formats())

@@ -21,6 +21,10 @@ std::string two_digits(double number) {
   return text;
 }
 
+Path texture_path(const Path& out, const std::string& mesh) {
+  return out.parent_path() / (out.stem().string() + "-" + mesh + ".png");
+}
+
 /// The textures of all meshes next to the main file, by file name; "" for a mesh without one.
 std::vector<std::string> add_textures(const MovingMeshes& moving, const Path& out,
                                       MeshFiles& files) {
@@ -29,16 +33,21 @@ std::vector<std::string> add_textures(const MovingMeshes& moving, const Path& ou
   for (size_t i = 0; i < moving.meshes.size(); ++i) {
     names.emplace_back();
     if (moving.meshes[i].texture.width == 0) continue;
-    names.back() = out.stem().string() + "-" + meshes[i] + ".png";
-    files.emplace_back(out.parent_path() / names.back(), encode_png(moving.meshes[i].texture));
+    const Path path = texture_path(out, meshes[i]);
+    names.back() = path.filename().string();
+    files.emplace_back(path, encode_png(moving.meshes[i].texture));
   }
   return names;
+}
+
+Path material_path(const Path& out) {
+  return Path(out).replace_extension(".mtl");
 }
 
 /// A sequence of OBJ files that share a material.
 MeshFiles obj_files(const MovingMeshes& moving, const Path& out, int first) {
   const MovingMesh& mesh = moving.meshes[0];
-  const auto with = [&](const char* extension) { return Path(out).replace_extension(extension); };
+  const Path material = material_path(out);
   Points coordinates;
   for (const Complex& z : mesh.rest) coordinates.push_back(texture_coordinate(mesh, z));
   MeshFiles files;
@@ -47,14 +56,14 @@ MeshFiles obj_files(const MovingMeshes& moving, const Path& out, int first) {
     for (const Complex& z : mesh.frames[k]) surface.vertices.push_back({z.real(), z.imag(), 0});
     surface.triangles = mesh.triangles;
     files.emplace_back(numbered(out, first + static_cast<int>(k)),
-                       obj_of(surface, coordinates, with(".mtl").filename().string()));
+                       obj_of(surface, coordinates, material.filename().string()));
   }
   if (mesh.texture.width == 0) {
-    files.emplace_back(with(".mtl"), material_of(""));
+    files.emplace_back(material, material_of(""));
     return files;
   }
-  const Path texture = out.parent_path() / (out.stem().string() + "-texture.png");
-  files.emplace_back(with(".mtl"), material_of(texture.filename().string()));
+  const Path texture = texture_path(out, "texture");
+  files.emplace_back(material, material_of(texture.filename().string()));
   files.emplace_back(texture, encode_png(mesh.texture));
   return files;
 }
@@ -84,6 +93,8 @@ MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted) 
   }
   const double rate = scene.animation.frames_per_second;
   const auto [first, last] = wanted.frames.value_or(std::pair(0, last_frame_of(scene)));
+  check(first <= last, "mesh_options_of: the frames run backwards");
+  check_budget(&Budget::frames, last - first + 1.0, "the export has");
   std::vector<double> frames;
   for (int i = first; i <= last; ++i) frames.push_back(i / rate);
   if (wanted.keys) {
@@ -107,10 +118,6 @@ MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted) 
   return options;
 }
 
-bool is_sequence(const MeshExport& wanted) {
-  return wanted.format == "obj";
-}
-
 MeshFiles mesh_files_of(const MovingMeshes& moving, const MeshExport& wanted) {
   const Path& out = wanted.out;
   const std::string& format = wanted.format;
@@ -122,6 +129,33 @@ MeshFiles mesh_files_of(const MovingMeshes& moving, const MeshExport& wanted) {
   const std::vector<std::string> textures = add_textures(moving, out, files);
   files[0].second = format == "godot" ? godot_of(moving, textures) : spine_of(moving, textures);
   return files;
+}
+
+std::vector<Path> mesh_file_names(const Scene& scene, const Pictures& pictures,
+                                  const MeshExport& wanted) {
+  const ExportFormat& format = export_format_named(wanted.format);
+  if (format.sequence) {
+    const auto [first, last] = wanted.frames.value_or(std::pair(0, last_frame_of(scene)));
+    std::vector<Path> names;
+    for (int i = first; i <= last; ++i) names.push_back(numbered(wanted.out, i));
+    names.push_back(material_path(wanted.out));
+    if (pictures.of(scene.layer())) names.push_back(texture_path(wanted.out, "texture"));
+    return names;
+  }
+  std::vector<Path> names{wanted.out};
+  if (!format.textures) return names;
+  MovingMeshes meshes;
+  std::vector<bool> textured;
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const bool has_picture = pictures.of(*scene.layers[i]) != nullptr;
+    if (!is_shown(scene, i) || !(has_picture || scene.layers[i]->deformation.has_cage())) continue;
+    meshes.meshes.emplace_back().name = title_of_layer(scene, i);
+    textured.push_back(has_picture);
+  }
+  const std::vector<std::string> unique = unique_names(meshes);
+  for (size_t i = 0; i < unique.size(); ++i)
+    if (textured[i]) names.push_back(texture_path(wanted.out, unique[i]));
+  return names;
 }
 
 std::optional<double> sufficient_rate(const MovingMeshes& moving) {

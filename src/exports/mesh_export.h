@@ -22,14 +22,16 @@ struct MeshExport {
   bool operator==(const MeshExport&) const = default;
 };
 
-/// Throws Error if the times make no sense, or if there are too many.
+/// The first frame must not come after the last one. Throws Error if there are too many times, or
+/// if a rate or keys are asked for at a single moment.
 MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted);
 
 /// The files of an export and what they contain. What the first one refers to comes after it.
 using MeshFiles = std::vector<std::pair<Path, std::string>>;
 MeshFiles mesh_files_of(const MovingMeshes& moving, const MeshExport& wanted);
-/// A sequence of OBJ files has one for each frame, numbered from the first frame.
-bool is_sequence(const MeshExport& wanted);
+/// The names of these files, known before there are meshes.
+std::vector<Path> mesh_file_names(const Scene& scene, const Pictures& pictures,
+                                  const MeshExport& wanted);
 
 /// The error above which a motion visibly differs, in pixels.
 inline constexpr double kVisibleError = 0.5;

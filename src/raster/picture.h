@@ -38,8 +38,8 @@ class PictureMaker {
   /// One layer alone, as it is before its opacity and blending are applied, even if it is hidden.
   /// None if it has no picture.
   std::optional<RasterResult> layer(size_t number, const PictureOptions& options);
-  /// Shows another picture in the rectangle of the edited layer's picture, whatever its size is. It
-  /// must outlive this object, or the next call.
+  /// Shows another picture, of any size, in the rectangle of the edited layer's picture. It must
+  /// stay alive until the next call.
   void show(const Image& picture);
   /// The undeformed pictures of the visible layers; none if there are none.
   std::optional<RasterResult> originals(const PictureOptions& options) const;

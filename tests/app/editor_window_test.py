@@ -195,28 +195,31 @@ class EditorWindowTest(WindowCase):
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "window/small.glb"))
-            editor.press_item("All that the editor uses")
+            editor.press_item("Full mesh")
             self.type_into(editor, "Per layer", "120")
             time.sleep(3)
             self.screenshot(editor, "export-small")
             editor.press_item("Export")
             editor.wait(lambda s: os.path.exists(os.path.join(self.work, "window/small.glb")) and not s["exporting"],
                         "a smaller mesh", 120)
-            # A texture of another scene is not replaced.
+            # Other files are replaced only after a question, which counts all of them.
+            os.remove(os.path.join(self.work, "window/fern.tscn"))
+            texture, = (name for name in os.listdir(os.path.join(self.work, "window")) if name.endswith(".png"))
+            with open(os.path.join(self.work, "window", texture), "w") as file:
+                file.write("mine")
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
-            os.remove(os.path.join(self.work, "window/fern.tscn"))
-            textures = [name for name in os.listdir(os.path.join(self.work, "window")) if name.endswith(".png")]
-            self.assertTrue(textures)
-            editor.type(os.path.join(self.work, "window/fern.tscn"))
+            editor.type(os.path.join(self.work, "window/fern.TSCN"))  # names may be in capitals
             editor.key("Return")
-            editor.wait(lambda s: not s["exporting"], "the refusal", 120)
-            time.sleep(0.5)
-            self.screenshot(editor, "export-refused")
-            self.assertFalse(os.path.exists(os.path.join(self.work, "window/fern.tscn")))
+            editor.item("Replace")
+            self.screenshot(editor, "export-replace-texture")
+            with open(os.path.join(self.work, "window", texture)) as file:
+                self.assertEqual(file.read(), "mine")
+            editor.key("Return")
+            editor.wait(lambda s: not s["exporting"] and not s["asking"], "the export", 120)
+            os.rename(os.path.join(self.work, "window/fern.TSCN"), os.path.join(self.work, "window/fern.tscn"))
         subprocess.run([PROGRAM, "export", scene, "--format", "glb", "--vertices", "120", "--out",
                         os.path.join(self.work, "command/small.glb")], check=True, stderr=subprocess.DEVNULL)
-        os.remove(os.path.join(self.work, "command/fern.tscn"))
         for name in os.listdir(os.path.join(self.work, "command")):
             with open(os.path.join(self.work, "window", name), "rb") as a, open(os.path.join(self.work, "command", name), "rb") as b:
                 self.assertEqual(a.read(), b.read(), name)

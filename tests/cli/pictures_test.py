@@ -109,7 +109,22 @@ class DeepPictures(Case):
             self.bad("render", scene, "--out", self.path("out.png"), "--force", says="cut.exr")
         self.oiio("in.png", "--ch", "Z=R", "-o", "depth.exr")
         scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "depth.exr"}})
-        self.bad("render", scene, "--out", self.path("out.png"), "--force", says="has no colors")
+        self.bad("render", scene, "--out", self.path("out.png"), "--force", says="has no channels R, G, B or Y")
+
+    def test_infinite_and_undefined_samples(self):
+        Image.new("RGB", (4, 1), (255, 128, 0)).save(self.path("in.png"))
+        for words in ([], ["--attrib:type=float[8]", "chromaticities", "0.708,0.292,0.170,0.797,0.131,0.046,0.3127,0.3290"]):
+            self.oiio("in.png", "-d", "half", "--mulc", "1e30,1,1", *words, "-o", "inf.exr")
+            self.assertEqual(self.shown("inf.exr")[0, 0, 0], 255)
+            self.oiio("in.png", "-d", "float", "--subc", "1,1,1", "--divc", "0,1,1", *words, "-o", "nan.exr")
+            self.assertEqual(self.shown("nan.exr")[0, 0, 3], 255)
+
+    def test_files_with_thousands_of_channels_take_no_memory(self):
+        self.oiio("--create", "16000x2", "1", "-d", "float", "--chnames", "R", "-o", "one.exr")
+        many = ",".join(f"c{i}" for i in range(2000))
+        self.oiio("--create", "16000x2", "2000", "-d", "float", "--chnames", many, "-o", "many.exr")
+        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "many.exr"}})
+        self.bad("render", scene, "--out", self.path("out.png"), "--force", says="takes too much memory")
 
     def test_linear_png_of_16_bits_keeps_dark_steps(self):
         wanted = numpy.arange(256.0).reshape(8, 32)

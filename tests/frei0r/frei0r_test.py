@@ -4,6 +4,7 @@ import os
 import random
 import subprocess
 import sys
+import time
 import unittest
 
 import numpy
@@ -108,11 +109,64 @@ class Frei0r(Case):
         expected[:, 125:275] = (250, 0, 0, 255)
         self.assertTrue((frame == expected).all())
 
+    def instance(self, size, scene, mode):
+        library = ctypes.CDLL(os.path.join(FOLDER, "holomorph.so"))
+        library.f0r_construct.restype = ctypes.c_void_p
+        one = ctypes.c_void_p(library.f0r_construct(*size))
+        library.f0r_set_param_value(one, ctypes.byref(ctypes.c_char_p(scene.encode())), 0)
+        library.f0r_set_param_value(one, ctypes.byref(ctypes.c_double(mode)), 2)
+
+        def update(time, frame):
+            out = numpy.zeros_like(frame)
+            library.f0r_update(one, ctypes.c_double(time), frame.ctypes.data_as(ctypes.c_void_p), out.ctypes.data_as(ctypes.c_void_p))
+            return out
+        return library, one, update
+
+    def test_the_mode_and_the_scene_may_change_while_it_runs(self):
+        size = (64, 48)
+        scene = self.scene(random.Random(6), size)
+        frame = numpy.random.default_rng(1).integers(0, 256, (48, 64, 4)).astype(numpy.uint8)
+        frame[..., 3] = 255
+        library, one, update = self.instance(size, scene, 0)
+        fresh, other, update_over = self.instance(size, scene, 1)
+        update(0, frame)
+        warped = update(0.04, frame)
+        over = update_over(0.04, frame)
+        self.assertTrue((warped != over).any())
+        for mode, expected in ((1, over), (0, warped), (1, over)):
+            library.f0r_set_param_value(one, ctypes.byref(ctypes.c_double(mode)), 2)
+            self.assertTrue((update(0.04, frame) == expected).all(), mode)
+        time.sleep(1.1)  # the file is looked at once a second
+        self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "0.png"}})
+        os.utime(scene, (1, 1))
+        plain = numpy.asarray(Image.open(self.path("0.png")).convert("RGBA"))
+        self.assertTrue((update(0.04, frame) == plain).all())
+        library.f0r_destruct(one)
+        fresh.f0r_destruct(other)
+
+    def test_a_single_pixel_and_scenes_without_their_picture(self):
+        scene = self.scene(random.Random(7), (64, 48))
+        os.remove(self.path("0.png"))
+        frame = numpy.full((48, 64, 4), 200, numpy.uint8)
+        library, one, update = self.instance((64, 48), scene, 0)  # frames replace the picture
+        self.assertTrue((update(1, frame) != frame).any())
+        library.f0r_destruct(one)
+        tiny = numpy.full((1, 1, 4), 200, numpy.uint8)
+        library, one, update = self.instance((1, 1), scene, 0)
+        update(0, tiny)
+        library.f0r_destruct(one)
+
     def test_what_is_wrong_is_said_once_and_frames_stay(self):
         Image.effect_noise((64, 48), 80).convert("RGB").save(self.path("film.png"))
         film = numpy.asarray(Image.open(self.path("film.png")).convert("RGBA"))
         broken = self.write("broken.json", "{")
+        Image.new("RGB", (64, 48)).save(self.path("a.png"))
+        layer = {"image": {"file": "a.png"}, "name": "a"}
+        hidden = self.write("hidden.json", {"format": "holomorph", "version": 2, "layers": [{**layer, "visible": False}, layer],
+                                            "edited": 0})
+        lost = self.write("lost.json", {"format": "holomorph", "version": 1, "image": {"file": "lost.png"}})
         for parameters, says in ((self.path("none.json"), "none.json"), (broken, "broken.json"),
+                                 (f"{hidden}|25|0", "the edited layer is hidden"), (f"{lost}|25|1", "lost.png"),
                                  (f"{self.scene(random.Random(1), (64, 48))}|fast", "the frame rate 'fast'")):
             frames, said = self.filtered((64, 48), 3, parameters, self.path("film.png"), check=False)
             self.assert_same(frames, [film] * 3)

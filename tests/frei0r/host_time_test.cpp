@@ -55,6 +55,29 @@ TEST_CASE("A host that passes seconds may seek anywhere") {
   }
 }
 
+TEST_CASE("A host that is known to pass seconds needs no rate, and may start and step anywhere") {
+  for (const unsigned seed : seeds_of("known seconds", {1})) {
+    std::mt19937 random(seed);
+    HostTime time(24, true, true);
+    for (int i = 0; i < 200; ++i) {
+      const double wanted = static_cast<double>(random() % 100000) / 30;
+      REQUIRE(time.seconds(wanted) == Approx(wanted).margin(0.0006));
+    }
+  }
+}
+
+TEST_CASE("A short first frame or a few irregular ones do not change the unit") {
+  HostTime time(25, false);
+  time.seconds(0.3);
+  REQUIRE(time.seconds(40) == 0.04);
+  REQUIRE(time.seconds(80) == 0.08);
+  REQUIRE(time.seconds(80.5) == Approx(0.0805).margin(0.0006));
+  REQUIRE(time.seconds(4000) == 4);
+  HostTime rare(1, false);  // a frame per second, in seconds
+  rare.seconds(0), rare.seconds(0.5);
+  for (int i = 1; i < 100; ++i) REQUIRE(rare.seconds(i) == i);
+}
+
 TEST_CASE("Frames without a time are counted") {
   for (const double rate : kFilmRates) {
     HostTime none(rate, false);

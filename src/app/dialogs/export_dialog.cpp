@@ -23,62 +23,7 @@ namespace {
 constexpr const char* kRegions[] = {"Everything", "The picture's rectangle",
                                     "What the canvas shows"};
 
-/// A row of the list of formats.
-struct Format {
-  std::string label, extension;
-  ExportKind kind = ExportKind::picture;
-};
-
-bool has_any_cage(const Scene& scene) {
-  return std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
-    return layer->visible && layer->deformation.has_cage();
-  });
-}
-
-/// The formats that make sense for a scene.
-std::vector<Format> formats(const Scene& scene) {
-  std::vector<Format> all;
-  for (const PictureFormat& format : picture_formats())
-    all.push_back({format.label, format.extension});
-  for (const LayeredFormat& format : layered_formats())
-    all.push_back({format.label, format.extension});
-  const bool moves = plays(scene);
-  if (moves)
-    for (const FilmFormat& format : film_formats())
-      all.push_back({format.label, format.extension, ExportKind::film});
-  const bool has_cage = scene.deformation().has_cage();
-  for (const ExportFormat& format : export_formats()) {
-    if (format.label.empty()) continue;
-    const bool sequence = format.meshes && is_sequence({format.id, {}});
-    if (format.meshes && (format.all_layers ? has_any_cage(scene) : has_cage) &&
-        (moves || !sequence))
-      all.push_back({format.label, format.extensions[0], ExportKind::meshes});
-    if (format.st_map && has_cage)
-      all.push_back({format.label, format.extensions[0],
-                     format.id == "stmap" ? ExportKind::st_map : ExportKind::unwarp_map});
-  }
-  return all;
-}
-
-/// Whether an extension belongs to a known format. Anything else that follows a dot is a part of
-/// the name.
-bool is_known_extension(const std::string& extension) {
-  const auto is = [&](const std::string& each) { return each == extension; };
-  return std::ranges::any_of(extensions_of({FileContent::picture}), is) ||
-         std::ranges::any_of(film_formats(), is, &FilmFormat::extension) ||
-         std::ranges::any_of(export_formats(), [&](const ExportFormat& format) {
-           return std::ranges::any_of(format.extensions, is);
-         });
-}
-
-bool is_drawn(ExportKind kind) {
-  return kind == ExportKind::picture || kind == ExportKind::film;
-}
-bool is_st_map(ExportKind kind) {
-  return kind == ExportKind::st_map || kind == ExportKind::unwarp_map;
-}
-
-bool uses_format(const ExportSettings& settings, const Format& format) {
+bool uses_format(const ExportSettings& settings, const ExportChoice& format) {
   return settings.kind == format.kind && format_extension(settings.path) == format.extension;
 }
 
@@ -92,15 +37,17 @@ PictureOptions as_shown(const Workspace& workspace) {
   return options;
 }
 
-std::string missing_picture_message(const Workspace& workspace) {
+std::string missing_picture_message(const Workspace& workspace, ExportKind kind) {
   const Document& document = workspace.document;
-  if (as_shown(workspace).view != View::image) return "";
-  for (const size_t i : document.layers_without_picture())
-    if (const Layer& layer = *document.scene().layers[i]; layer.visible)
+  if (is_drawn(kind) && as_shown(workspace).view != View::image) return "";
+  for (const size_t i : document.layers_without_picture()) {
+    const Layer& layer = *document.scene().layers[i];
+    if (is_st_map(kind) ? i == document.scene().edited : layer.visible)
       return Path(layer.image->file).filename().string() +
              (document.pictures().withheld().contains(layer.image->file)
                   ? " is not in the scene's folder. Press Show it, or hide its layer."
                   : " could not be read. Press Find it, or hide its layer.");
+  }
   return "";
 }
 
@@ -129,8 +76,8 @@ void ExportDialog::ask(std::optional<ExportKind> asked, const Path& folder) {
   const bool had_all = !last_ || last_all_;
   settings_.last = had_all ? last : std::clamp(settings_.last, 0, last);
   settings_.first = std::clamp(settings_.first, 0, settings_.last);
-  const auto is_chosen = [&](const Format& format) { return uses_format(settings_, format); };
-  if (kind != settings_.kind || std::ranges::none_of(formats(document.scene()), is_chosen)) {
+  const auto is_chosen = [&](const ExportChoice& format) { return uses_format(settings_, format); };
+  if (kind != settings_.kind || std::ranges::none_of(export_choices(document.scene()), is_chosen)) {
     settings_.kind = kind == ExportKind::film ? kind : ExportKind::picture;
     settings_.path.replace_extension(extension_of(settings_.kind));
   }
@@ -141,7 +88,9 @@ void ExportDialog::ask(std::optional<ExportKind> asked, const Path& folder) {
 }
 
 void ExportDialog::again(const Path& folder) {
-  if (!last_) return ask({}, folder);
+  const auto is_last = [&](const ExportChoice& format) { return uses_format(*last_, format); };
+  if (!last_ || std::ranges::none_of(export_choices(workspace_.document.scene()), is_last))
+    return ask({}, folder);
   ExportSettings repeated = *last_;
   const int last = last_frame_of(workspace_.document.scene());
   repeated.last = last_all_ ? last : std::min(repeated.last, last);
@@ -185,8 +134,8 @@ std::string ExportDialog::st_map_text() const {
   const auto side = [&](int length) {
     return std::to_string(std::lround(length * settings_.scale) + 2 * settings_.overscan);
   };
-  return side(picture->width) + " \u00d7 " + side(picture->height) +
-         " px; red and green are the place in the picture, alpha is the coverage";
+  return side(picture->width) + " \u00d7 " + side(picture->height) + " px" +
+         (workspace_.shown.time_of_layers() ? ", at the current time only" : "");
 }
 
 std::string ExportDialog::result_text() const {
@@ -228,30 +177,23 @@ std::string ExportDialog::result_text() const {
 
 std::vector<Path> ExportDialog::files() const {
   if (settings_.kind == ExportKind::film) return files_of_film(settings_.path, frames());
-  const Scene& scene = workspace_.document.scene();
-  if (settings_.kind != ExportKind::meshes || !is_sequence(mesh_export_of(settings_, scene)))
-    return {settings_.path};
-  std::vector<Path> all;
-  for (int i = settings_.first; i <= settings_.last; ++i)
-    all.push_back(numbered(settings_.path, i));
-  return all;
+  if (settings_.kind != ExportKind::meshes) return {settings_.path};
+  const Document& document = workspace_.document;
+  return mesh_file_names(document.scene(), document.pictures(),
+                         mesh_export_of(settings_, document.scene()));
 }
 
 std::string ExportDialog::start(const ExportSettings& settings) {
   settings_ = settings;
   const Document& document = workspace_.document;
-  bool replaces = false;
   try {
     if (settings.kind == ExportKind::film)
       film_format_of(settings.path);
     else if (settings.kind == ExportKind::picture && !layered_format_of(settings.path))
       picture_format_of(settings.path);
-    for (const Path& file : files()) {
-      check_may_write(file, document.sources());
-      std::error_code error;
-      replaces = replaces || std::filesystem::exists(file, error);
-    }
-    if (const std::string problem = missing_picture_message(workspace_); !problem.empty())
+    for (const Path& file : files()) check_may_write(file, document.sources());
+    if (const std::string problem = missing_picture_message(workspace_, settings.kind);
+        !problem.empty())
       return problem;
   } catch (const Error& error) {
     return error.what();
@@ -261,9 +203,8 @@ std::string ExportDialog::start(const ExportSettings& settings) {
     ExportWork work;
     std::string done;
   };
-  const auto it = std::make_shared<Work>(
-      Work{{std::move(scene), document.pictures(), settings, options, document.sources(), replaces},
-           ""});
+  const auto it =
+      std::make_shared<Work>(Work{{std::move(scene), document.pictures(), settings, options}, ""});
   const auto export_it = [it](Job::Progress& progress) {
     it->done = done_export(it->work, progress);
   };
@@ -283,7 +224,7 @@ Path ExportDialog::in_folder(const Path& path) const {
 /// without an extension.
 std::vector<std::string> ExportDialog::extensions() const {
   std::vector<std::string> all{format_extension(settings_.path)};
-  for (const Format& format : formats(workspace_.document.scene()))
+  for (const ExportChoice& format : export_choices(workspace_.document.scene()))
     if (std::ranges::find(all, format.extension) == all.end()) all.push_back(format.extension);
   return all;
 }
@@ -291,12 +232,12 @@ std::vector<std::string> ExportDialog::extensions() const {
 /// Sets the path and, from its extension, the format. If several kinds of files have the extension,
 /// the current choice between them is kept. Returns false if the extension is unknown.
 bool ExportDialog::take_path(const Path& path) {
-  const std::vector<Format> known = formats(workspace_.document.scene());
+  const std::vector<ExportChoice> known = export_choices(workspace_.document.scene());
   const std::string extension = format_extension(path);
-  const auto is_same = [&](const Format& format) {
+  const auto is_same = [&](const ExportChoice& format) {
     return format.extension == extension && format.kind == settings_.kind;
   };
-  const auto other = std::ranges::find(known, extension, &Format::extension);
+  const auto other = std::ranges::find(known, extension, &ExportChoice::extension);
   if (other == known.end()) return false;
   if (std::ranges::none_of(known, is_same)) settings_.kind = other->kind;
   settings_.path = path;
@@ -324,6 +265,12 @@ void ExportDialog::accept() {
     return;
   }
   name_ = path.string();
+  try {
+    for (const Path& file : files()) check_may_write(file, workspace_.document.sources());
+  } catch (const Error& problem) {
+    message_ = problem.what();
+    return;
+  }
   if (!confirming_) {
     std::vector<Path> there = files();
     std::erase_if(there, [&](const Path& file) { return !std::filesystem::exists(file, error); });
@@ -369,27 +316,35 @@ void ExportDialog::draw_file() {
 }
 
 void ExportDialog::draw_format() {
-  std::string preview = settings_.path.extension().string();
-  const std::vector<Format> known = formats(workspace_.document.scene());
-  for (const Format& format : known)
+  std::string preview = format_extension(settings_.path);
+  const std::vector<ExportChoice> known = export_choices(workspace_.document.scene());
+  for (const ExportChoice& format : known)
     if (uses_format(settings_, format)) preview = format.label;
   row_label("Format");
   if (!begin_dropdown("##Format", preview)) return;
-  for (const Format& format : known)
+  for (const ExportChoice& format : known)
     if (dropdown_row(format.label, uses_format(settings_, format))) {
       settings_.kind = format.kind;
-      settings_.path = Path(name_).replace_extension(format.extension);
-      name_ = settings_.path.string();
+      Path path = Path(name_).replace_extension(format.extension);
+      // A skeleton has the extension of scenes.
+      if (format.extension == ".json" && !path.stem().string().ends_with("-spine"))
+        path.replace_filename(path.stem().string() + "-spine.json");
+      settings_.path = path;
+      name_ = path.string();
       confirming_ = false;
     }
   end_dropdown();
 }
 
-void ExportDialog::draw_look() {
+void ExportDialog::draw_scale() {
   double percent = 100 * settings_.scale;
   if (slider_row("Scale", percent,
                  {.low = 10, .high = 400, .unit = "%", .logarithmic = true, .neutral = 100.0}))
     settings_.scale = std::round(percent) / 100;
+}
+
+void ExportDialog::draw_look() {
+  draw_scale();
   row_label("Region");
   const auto region = static_cast<size_t>(settings_.region);
   if (begin_dropdown("##Region", kRegions[region])) {
@@ -451,7 +406,7 @@ void ExportDialog::draw_meshes() {
   const Scene& scene = workspace_.document.scene();
   bool own = !settings_.vertices;
   row_label("Vertices");
-  if (check_box("All that the editor uses", own))
+  if (check_box("Full mesh", own))
     settings_.vertices = own ? std::nullopt : std::optional<size_t>(500);
   if (settings_.vertices) {
     double vertices = static_cast<double>(*settings_.vertices);
@@ -465,14 +420,11 @@ void ExportDialog::draw_meshes() {
   const double usual = scene.animation.frames_per_second;
   double rate = settings_.rate.value_or(usual);
   if (slider_row("Rate", rate, {.low = 1, .high = 120, .unit = "/s", .neutral = usual}))
-    settings_.rate = rate == usual ? std::nullopt : std::optional(rate);
+    settings_.rate = std::round(rate) == usual ? std::nullopt : std::optional(std::round(rate));
 }
 
 void ExportDialog::draw_st_map() {
-  double percent = 100 * settings_.scale;
-  if (slider_row("Scale", percent,
-                 {.low = 10, .high = 400, .unit = "%", .logarithmic = true, .neutral = 100.0}))
-    settings_.scale = std::round(percent) / 100;
+  draw_scale();
   double overscan = settings_.overscan;
   if (slider_row("Overscan", overscan, {.low = 0, .high = 1000, .unit = "px", .neutral = 0.0}))
     settings_.overscan = static_cast<int>(std::lround(overscan));
@@ -480,8 +432,23 @@ void ExportDialog::draw_st_map() {
   check_box("Half precision", settings_.half);
 }
 
+ExportEstimate::Question ExportDialog::question() const {
+  if (settings_.kind == ExportKind::meshes) {
+    const Scene& scene = workspace_.document.scene();
+    return {.scene = scene, .extension = "", .meshes = mesh_export_of(settings_, scene)};
+  }
+  auto [scene, options] = drawn();
+  const bool film = settings_.kind == ExportKind::film;
+  return {.scene = std::move(scene),
+          .options = options,
+          .extension = format_extension(settings_.path),
+          .film = film,
+          .first = settings_.first,
+          .frames = film ? frames() : 1};
+}
+
 void ExportDialog::draw() {
-  if (!open_ || chooser_.open()) return;  // hidden while a file is being chosen
+  if (!open_ || chooser_.open()) return estimate_.stop();  // hidden while a file is being chosen
   if (!begin_dialog("Export", "###export", 620)) return;
   {
     const ScopedLabelWidth wide(px(96));
@@ -492,15 +459,10 @@ void ExportDialog::draw() {
     if (settings_.kind == ExportKind::meshes) draw_meshes();
     if (is_st_map(settings_.kind)) draw_st_map();
   }
-  if (!is_st_map(settings_.kind)) {
-    const auto [scene, options] = drawn();
-    const bool film = settings_.kind == ExportKind::film;
-    ExportEstimate::Question question{scene, options,         settings_.path.extension().string(),
-                                      film,  settings_.first, film ? frames() : 1,
-                                      {}};
-    if (settings_.kind == ExportKind::meshes) question.meshes = mesh_export_of(settings_, scene);
-    estimate_.update(std::move(question), workspace_.document.pictures());
-  }
+  if (is_st_map(settings_.kind))
+    estimate_.stop();
+  else
+    estimate_.update(question(), workspace_.document.pictures());
   if (message_.empty())
     caption(result_text());
   else

@@ -10,8 +10,9 @@ namespace holomorph {
 
 /// Options for a picture with the canvas's current view, color range and time.
 PictureOptions as_shown(const Workspace& workspace);
-/// A message about a picture that would be missing from an export with these options, or "".
-std::string missing_picture_message(const Workspace& workspace);
+/// A message about a picture that would be missing from an export of what is shown, or "".
+std::string missing_picture_message(const Workspace& workspace,
+                                    ExportKind kind = ExportKind::picture);
 
 class ExportDialog {
  public:
@@ -34,12 +35,14 @@ class ExportDialog {
  private:
   void draw_file();
   void draw_format();
+  void draw_scale();
   void draw_look();
   void draw_frames();
   void draw_meshes();
   void draw_st_map();
   std::string result_text() const;
   std::string st_map_text() const;
+  ExportEstimate::Question question() const;
   int frames() const;  ///< of the film
   /// What is to be exported: the scene with the chosen background, and how it is drawn.
   std::pair<Scene, PictureOptions> drawn() const;

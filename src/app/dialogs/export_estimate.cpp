@@ -93,7 +93,10 @@ void ExportEstimate::update(Question question, const Pictures& pictures) {
     const std::lock_guard lock(result_->mutex);
     if (!result_->text.empty()) text_ = result_->text;
   }
-  if (job_ && job_->ended()) job_.reset();
+  if (job_ && job_->ended()) {
+    if (const auto error = job_->error()) text_ = error->what();
+    job_.reset();
+  }
   if (asked_ == question) return;
   if (job_) {  // the next frame after its end asks again
     job_->cancel();
@@ -117,6 +120,14 @@ void ExportEstimate::update(Question question, const Pictures& pictures) {
         result->text = text;
       },
       wake_);
+}
+
+void ExportEstimate::stop() {
+  if (job_) job_->cancel();
+  if (job_ && job_->ended()) job_.reset();
+  asked_.reset();
+  text_.clear();
+  result_.reset();
 }
 
 }  // namespace holomorph

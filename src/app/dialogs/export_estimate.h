@@ -16,11 +16,11 @@ class ExportEstimate {
  public:
   struct Question {
     Scene scene;
-    PictureOptions options;
+    PictureOptions options = {};
     std::string extension;
     bool film = false;
     int first = 0, frames = 1;
-    std::optional<MeshExport> meshes;  ///< if meshes are exported
+    std::optional<MeshExport> meshes = {};  ///< if meshes are exported
     bool operator==(const Question& other) const;
   };
 
@@ -28,6 +28,8 @@ class ExportEstimate {
   explicit ExportEstimate(std::function<void()> wake) : wake_(std::move(wake)) {}
   /// Starts a new estimate if the question has changed. Call this in every frame.
   void update(Question question, const Pictures& pictures);
+  /// Cancels the estimate. Call this while there is no question.
+  void stop();
   /// The estimate, such as "3.4 MB", or for meshes "3 meshes, ... at most 0.2 px off"; empty while
   /// it is unknown.
   const std::string& text() const { return text_; }

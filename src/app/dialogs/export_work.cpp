@@ -59,16 +59,8 @@ std::string exported_meshes(const ExportWork& work, Job::Progress& progress) {
                            throw Canceled{};
                        });
   const MeshFiles files = mesh_files_of(moving, wanted);
-  for (const auto& [path, bytes] : files) {
-    check_may_write(path, work.sources);
-    // The names of textures are known only now, so the user has agreed only to those of an export
-    // that is repeated.
-    if (std::error_code error; !work.replaces && std::filesystem::exists(path, error))
-      throw Error(ErrorKind::bad_input, path.filename().string() + " already exists, and " +
-                                            name_of(work) +
-                                            " needs a file with this name. Choose another name.");
-  }
   if (progress.cancelled()) return "";
+  // The main file comes last, so that what it refers to is there.
   for (size_t i = files.size(); i-- > 0;) write_file(files[i].first, files[i].second);
   std::string message = "Exported " + name_of(work) + ", " + mesh_counts(moving) + ".";
   if (export_format_named(wanted.format).all_layers)
@@ -97,7 +89,7 @@ std::string exported_st_map(const ExportWork& work, Job::Progress& progress) {
 }  // namespace
 
 MeshExport mesh_export_of(const ExportSettings& settings, const Scene& scene) {
-  const std::string extension = settings.path.extension().string();
+  const std::string extension = format_extension(settings.path);
   MeshExport wanted;
   for (const ExportFormat& format : export_formats())
     if (format.meshes && format.extensions[0] == extension) wanted.format = format.id;

@@ -1,15 +1,13 @@
 // Writes an export on another thread.
 #pragma once
 
+#include "app/dialogs/export_choice.h"
 #include "exports/mesh_export.h"
 #include "raster/picture.h"
 #include "scene/loading.h"
 #include "system/job.h"
 
 namespace holomorph {
-
-/// What a file contains. Pictures may have layers.
-enum class ExportKind { picture, film, meshes, st_map, unwarp_map };
 
 /// Settings of an export. "Export again" reuses them.
 struct ExportSettings {
@@ -28,7 +26,7 @@ struct ExportSettings {
   bool half = false;               ///< ST-maps have half precision
 };
 
-/// What `export` would be asked for.
+/// The same export, as the command `export` describes it.
 MeshExport mesh_export_of(const ExportSettings& settings, const Scene& scene);
 
 struct ExportWork {
@@ -36,8 +34,6 @@ struct ExportWork {
   Pictures pictures;
   ExportSettings settings;
   PictureOptions options;
-  Sources sources;        ///< must not be overwritten
-  bool replaces = false;  ///< the user agreed to overwrite what was exported before
 };
 /// Does the work. Returns a message for the user, or "" if it was canceled. Throws Error.
 std::string done_export(const ExportWork& work, Job::Progress& progress);

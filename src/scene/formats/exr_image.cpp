@@ -1,11 +1,14 @@
 // Reads OpenEXR files from memory with the library OpenEXR. Their colors are linear and
-// premultiplied; what is brighter than white becomes white.
+// premultiplied. Values above white are clipped.
 #include <Iex.h>
+#include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfVersion.h>
+#include <ImfXdr.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +42,32 @@ class BytesStream : public Imf::IStream {
   size_t at_ = 0;
 };
 
+/// Throws Error if reading a few lines of a file would take much memory. The library checks the
+/// sizes of pictures and tiles, but not the number of channels.
+void check_memory(const std::string& bytes, const std::string& name) {
+  constexpr double kMost = 1 << 29;   // bytes
+  constexpr double kMostLines = 256;  // that a compression stores together
+  BytesStream stream(bytes, name);
+  stream.seekg(4);
+  int version = 0;
+  Imf::Xdr::read<Imf::StreamIO>(stream, version);
+  Imf::Header header;
+  header.readFrom(stream, version);
+  header.sanityCheck(header.hasTileDescription(), Imf::isMultiPart(version));
+  double pixel = 0;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    pixel += channel.channel().type == Imf::HALF ? 2 : 4;
+  const Imath::Box2i& data = header.dataWindow();
+  const double width = static_cast<double>(data.max.x) - static_cast<double>(data.min.x) + 1;
+  const double lines = header.hasTileDescription() ? header.tileDescription().ySize : kMostLines;
+  if (width * lines * pixel > kMost)
+    throw Error(ErrorKind::bad_input,
+                name + ": reading a line of the picture takes too much memory; it has " +
+                    std::to_string(static_cast<int>(pixel)) + " bytes per pixel");
+}
+
 /// The matrix from a file's linear colors, as row vectors, to those of sRGB. Colors are adapted to
-/// the other white as proposed by Bradford.
+/// the other white by the Bradford transform.
 Imath::M33f to_linear_srgb(const Imf::Chromaticities& from) {
   const Imf::Chromaticities srgb;
   const auto part = [](const Imath::M44f& m) {
@@ -59,6 +86,12 @@ Imath::M33f to_linear_srgb(const Imf::Chromaticities& from) {
          part(Imf::XYZtoRGB(srgb, 1));
 }
 
+/// The sample, or the nearest number; 0 for NaN.
+float finite(half sample) {
+  const float value = sample, most = HALF_MAX;
+  return value == value ? std::clamp(value, -most, most) : 0;
+}
+
 std::uint8_t srgb_byte(float linear) {
   const float x = linear > 0 ? std::min(linear, 1.0f) : 0;  // also for NaN
   const float value = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
@@ -69,7 +102,8 @@ std::uint8_t srgb_byte(float linear) {
 Image read_display(Imf::RgbaInputFile& file, const std::string& name, PixelBudget& pixels) {
   const Imath::Box2i shown = file.displayWindow(), stored = file.dataWindow();
   if ((file.channels() & (Imf::WRITE_RGB | Imf::WRITE_YC)) == 0)
-    throw Error(ErrorKind::bad_input, name + ": the OpenEXR file has no colors");
+    throw Error(ErrorKind::bad_input,
+                name + ": the OpenEXR file has no channels R, G, B or Y in its first part");
   const auto side = [](int low, int high) {
     return static_cast<size_t>(std::max<std::int64_t>(std::int64_t{high} - low + 1, 0));
   };
@@ -87,7 +121,7 @@ Image read_display(Imf::RgbaInputFile& file, const std::string& name, PixelBudge
       const Imf::Rgba& pixel = row[static_cast<size_t>(x - stored.min.x)];
       const float alpha = pixel.a > 0 ? std::min(static_cast<float>(pixel.a), 1.0f) : 0;
       if (alpha == 0) continue;
-      Imath::V3f color(pixel.r, pixel.g, pixel.b);
+      Imath::V3f color(finite(pixel.r), finite(pixel.g), finite(pixel.b));
       color /= alpha;
       if (!is_srgb) color = color * matrix;
       std::uint8_t* out = image.at(x - shown.min.x, y - shown.min.y);
@@ -106,18 +140,23 @@ bool is_exr(const std::string& bytes) {
 
 Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
   constexpr int kLargest = 16384, kLargestTile = 2048;
-  static const bool limited = [] {  // headers must not make the library allocate more
+  static const bool limited = [] {
     Imf::Header::setMaxImageSize(kLargest, kLargest);
     Imf::Header::setMaxTileSize(kLargestTile, kLargestTile);
     return true;
   }();
   check(limited, "decode_exr: limits are set");
   try {
+    check_memory(bytes, name);
     BytesStream stream(bytes, name);
     Imf::RgbaInputFile file(stream);
     return read_display(file, name, pixels);
-  } catch (const Iex::BaseExc& error) {
-    throw Error(ErrorKind::bad_input, name + ": the picture is damaged (" + error.what() + ")");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(ErrorKind::bad_input, name + ": the picture cannot be read: " + error.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "scene/budget.h"
 #include "scene/formats/image_formats.h"
 #include "scene/formats/to_srgb.h"
 
@@ -28,8 +29,7 @@ class PngReader {
 
   Image read(PixelBudget& pixels) {
     run(&PngReader::read_header);
-    constexpr double kDeepCopies = 3;  // two bytes instead of one, and the result
-    pixels.take(width_, height_, name_, is_deep() ? kDeepCopies : 1);
+    take_pixels(pixels);
     run(&PngReader::prepare);
     const int width = static_cast<int>(width_), height = static_cast<int>(height_);
     const size_t row = 4 * static_cast<size_t>(width_);
@@ -52,8 +52,16 @@ class PngReader {
   }
 
  private:
-  /// Whether the samples have 16 bits and must be converted.
-  bool is_deep() const { return depth_ == 16 && (profile_size_ > 0 || gamma_ > 0); }
+  /// Whether samples of 16 bits are converted before they are rounded to 8 bits.
+  bool is_deep() const { return is_deep_; }
+
+  /// Very large pictures are rounded first, because there is no memory for both.
+  void take_pixels(PixelBudget& pixels) {
+    constexpr double kDeepCopies = 3;  // two bytes instead of one, and the result
+    is_deep_ = depth_ == 16 && (profile_size_ > 0 || gamma_ > 0) &&
+               kDeepCopies * width_ * height_ <= budget().pixels;
+    pixels.take(width_, height_, name_, 1);
+  }
 
   void convert() {
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
@@ -142,6 +150,7 @@ class PngReader {
   size_t at_ = 0;
   bool ended_ = false;
   int depth_ = 8;
+  bool is_deep_ = false;
   char message_[200] = "";
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;

@@ -66,7 +66,7 @@ void convert_gray(Image& image, const Conversion& conversion) {
 /// The nearest picture with 8 bits.
 Image rounded(const DeepImage& deep) {
   Image image(deep.width, deep.height);
-  constexpr unsigned kStep = 257;  // of 16 bits per step of 8 bits
+  constexpr unsigned kStep = 257;  // 16-bit steps per 8-bit step
   for (size_t i = 0; i < deep.pixels.size(); ++i)
     image.pixels[i] = static_cast<std::uint8_t>((deep.pixels[i] + kStep / 2) / kStep);
   return image;
@@ -106,7 +106,7 @@ Image converted_gray(const DeepImage& deep, const Profile& profile) {
   return image;
 }
 
-/// The profile of a PNG file without one; null if the gamma makes no sense.
+/// The profile of a PNG file without one; null if the gamma is invalid.
 Profile profile_of(const Chromaticities& p, double gamma) {
   if (!(gamma > 0.01 && gamma < 100)) return {};
   cmsCIExyY white{p.white[0], p.white[1], 1};

@@ -172,6 +172,12 @@ TEST_CASE("The gamma and primaries of a PNG are applied, and those of sRGB chang
   const Image image = marked(40, 30);
   CHECK(decode_image(png_file(image, {.gamma = 1 / 2.2}), "a.png") == image);
   check_adobe(image, decode_image(png_file(image, {.gamma = 1, .adobe = true}), "a.png"), 1.6);
+  check_adobe(image,
+              decode_image(png_file(image, {.gamma = 1, .adobe = true, .sixteen = true}), "a.png"),
+              1.6);
+  check_adobe(image,
+              decode_image(png_file(image, {.profile = linear_adobe(), .sixteen = true}), "a.png"),
+              1.6);
   // A file that is marked as sRGB is sRGB, whatever else it states.
   CHECK(decode_image(png_file(image, {.gamma = 1, .srgb = true}), "a.png") == image);
   const Image dark = decode_image(png_file(image, {.gamma = 1.0 / 1.8}), "a.png");
