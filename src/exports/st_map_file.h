@@ -6,8 +6,8 @@
 
 namespace holomorph {
 
-/// Whether the name of an ST-map ends in .exr. Otherwise, it is NumPy: .npy, or no extension. Throws
-/// Error for other extensions.
+/// Whether the name of an ST-map ends in .exr. Otherwise, it is NumPy: .npy, or no extension.
+/// Throws Error for other extensions.
 bool is_exr_name(const Path& out);
 
 /// The bytes of an ST-map's file. OpenEXR has channels in the usual order, in half or single
