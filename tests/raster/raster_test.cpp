@@ -248,8 +248,8 @@ TEST_CASE("A picture of another size fills the same rectangle") {
     };
     Deformation deformation;
     deformation.method = "harmonic";
-    deformation.rest =
-        polygon_cage({{8, 8}, {width - 8.0, 8}, {width - 8.0, height - 8.0}, {8, height - 8.0}});
+    deformation.rest = polygon_cage(
+        Points{{8, 8}, {width - 8.0, 8}, {width - 8.0, height - 8.0}, {8, height - 8.0}});
     deformation.pose = deformation.rest;
     for (Points& segment : deformation.pose.segments)
       for (Complex& z : segment) z += 6.0 * random_complex(random);
