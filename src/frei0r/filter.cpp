@@ -35,6 +35,20 @@ bool passes_seconds() {
   return dlsym(RTLD_DEFAULT, "mlt_factory_init") || dlsym(RTLD_DEFAULT, "gst_init");
 }
 
+/// The number of pixels from one row of a frame to the next. ffmpeg 5 aligns its rows for the
+/// processor but tells filters only the width.
+int row_pixels(int width) {
+  using Alignment = size_t();
+  auto* alignment = reinterpret_cast<Alignment*>(dlsym(RTLD_DEFAULT, "av_cpu_max_align"));
+  const bool is_ffmpeg = dlsym(RTLD_DEFAULT, "avfilter_graph_alloc") && !passes_seconds();
+  if (!alignment || !is_ffmpeg) return width;
+  const size_t bytes = alignment();
+  for (int step = 1;; step *= 2) {
+    const int padded = (width + step - 1) / step * step;
+    if (4 * static_cast<size_t>(padded) % bytes == 0) return padded;
+  }
+}
+
 /// Modes warp the film or draw over it.
 bool is_over(double mode) {
   return mode >= 0.5;
@@ -127,7 +141,7 @@ class ScenePlayer {
 /// An instance of the filter in a host.
 class Filter {
  public:
-  Filter(int width, int height) : width_(width), height_(height) {}
+  Filter(int width, int height) : width_(width), height_(height), row_(row_pixels(width)) {}
 
   /// Copies a parameter from the host.
   void set(int parameter, f0r_param_t value) {
@@ -157,8 +171,8 @@ class Filter {
   /// Draws a frame. If that fails, the frame is passed through, and the reason is printed once.
   void update(double passed, const std::uint32_t* in, std::uint32_t* out) {
     const std::lock_guard lock(mutex_);
-    const size_t bytes = 4 * static_cast<size_t>(width_) * static_cast<size_t>(height_);
-    if (in != out) std::memcpy(out, in, bytes);
+    if (in != out)
+      std::memcpy(out, in, 4 * static_cast<size_t>(row_) * static_cast<size_t>(height_));
     if (scene_.empty()) return;
     reload_changed();
     if (failed_) return;
@@ -170,10 +184,13 @@ class Filter {
       }
       const double time = time_->seconds(passed);
       Image frame(width_, height_);
-      std::memcpy(frame.pixels.data(), in, bytes);
+      const size_t row = static_cast<size_t>(row_), bytes = 4 * static_cast<size_t>(width_);
+      for (int y = 0; y < height_; ++y)
+        std::memcpy(frame.at(0, y), in + row * static_cast<size_t>(y), bytes);
       const Image drawn = is_over(mode_) ? player_->composed(std::move(frame), time)
                                          : player_->warped(std::move(frame), time);
-      std::memcpy(out, drawn.pixels.data(), bytes);
+      for (int y = 0; y < height_; ++y)
+        std::memcpy(out + row * static_cast<size_t>(y), drawn.at(0, y), bytes);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "holomorph: %s\n", printable(what_of(error)).c_str());
       failed_ = true;
@@ -216,6 +233,7 @@ class Filter {
   }
 
   int width_, height_;
+  int row_;  ///< pixels from one row to the next
   std::mutex mutex_;
   std::string scene_, rate_ = "0";
   double mode_ = 0;

@@ -46,7 +46,7 @@ class DeepPictures(Case):
 
     def shown(self, name):
         """The picture as the program reads it."""
-        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": name}})
+        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": name}, "cage": {"rest": []}})
         self.good("render", scene, "--out", self.path("out.png"), "--force")
         return numpy.asarray(Image.open(self.path("out.png")).convert("RGBA")).astype(float)
 
@@ -105,10 +105,10 @@ class DeepPictures(Case):
         for length in (4, 50, 300, len(whole) // 2, len(whole) - 10):
             with open(self.path("cut.exr"), "wb") as file:
                 file.write(whole[:length])
-            scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "cut.exr"}})
+            scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "cut.exr"}, "cage": {"rest": []}})
             self.bad("render", scene, "--out", self.path("out.png"), "--force", says="cut.exr")
         self.oiio("in.png", "--ch", "Z=R", "-o", "depth.exr")
-        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "depth.exr"}})
+        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "depth.exr"}, "cage": {"rest": []}})
         self.bad("render", scene, "--out", self.path("out.png"), "--force", says="has no channels R, G, B or Y")
 
     def test_infinite_and_undefined_samples(self):
@@ -123,7 +123,7 @@ class DeepPictures(Case):
         self.oiio("--create", "16000x2", "1", "-d", "float", "--chnames", "R", "-o", "one.exr")
         many = ",".join(f"c{i}" for i in range(2000))
         self.oiio("--create", "16000x2", "2000", "-d", "float", "--chnames", many, "-o", "many.exr")
-        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "many.exr"}})
+        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "many.exr"}, "cage": {"rest": []}})
         self.bad("render", scene, "--out", self.path("out.png"), "--force", says="takes too much memory")
 
     def test_linear_png_of_16_bits_keeps_dark_steps(self):
