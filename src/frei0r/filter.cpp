@@ -35,18 +35,32 @@ bool passes_seconds() {
   return dlsym(RTLD_DEFAULT, "mlt_factory_init") || dlsym(RTLD_DEFAULT, "gst_init");
 }
 
-/// The number of pixels from one row of a frame to the next. ffmpeg 5 aligns its rows for the
-/// processor but tells filters only the width.
+/// The number of pixels from one row of a frame to the next. ffmpeg 5 pads rows but tells filters
+/// only the width.
 int row_pixels(int width) {
-  using Alignment = size_t();
-  auto* alignment = reinterpret_cast<Alignment*>(dlsym(RTLD_DEFAULT, "av_cpu_max_align"));
+  constexpr int kPadded = 16;
   const bool is_ffmpeg = dlsym(RTLD_DEFAULT, "avfilter_graph_alloc") && !passes_seconds();
-  if (!alignment || !is_ffmpeg) return width;
-  const size_t bytes = alignment();
-  for (int step = 1;; step *= 2) {
-    const int padded = (width + step - 1) / step * step;
-    if (4 * static_cast<size_t>(padded) % bytes == 0) return padded;
-  }
+  return is_ffmpeg ? (width + kPadded - 1) / kPadded * kPadded : width;
+}
+
+/// The picture in another size. Pixels at its edges are repeated outside, so that edges stay
+/// opaque.
+Image stretched(const Image& image, int width, int height) {
+  Image wide(image.width + 2, image.height + 2);
+  for (int y = 0; y < wide.height; ++y)
+    for (int x = 0; x < wide.width; ++x)
+      std::memcpy(
+          wide.at(x, y),
+          image.at(std::clamp(x - 1, 0, image.width - 1), std::clamp(y - 1, 0, image.height - 1)),
+          4);
+  const double across = double(width) / image.width, down = double(height) / image.height;
+  RasterJob job;
+  job.source = &wide;
+  job.extent = Extent{width + 2 * across, height + 2 * down};
+  job.placement = {1, {across, down}, 0};
+  job.region = Box{0, 0, double(width), double(height)};
+  job.top = height;
+  return rasterized(job).image;
 }
 
 /// Modes warp the film or draw over it.
@@ -78,10 +92,7 @@ class ScenePlayer {
     const int columns = pixels(box.width()), rows = pixels(box.height());
     Image drawn = part({box.left, box.top}, scale, columns, rows, time);
     if (columns == width && rows == height) return drawn;
-    RasterJob job;
-    job.source = &drawn;
-    job.extent = Extent{double(width), double(height)};
-    return rasterized(job).image;
+    return stretched(drawn, width, height);
   }
 
   /// The scene drawn over a frame. The lowest picture is scaled to fit, and centered.

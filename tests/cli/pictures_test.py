@@ -23,6 +23,18 @@ def linear(srgb):
     return numpy.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
 
 
+def to_xyz(white, red, green, blue):
+    """The matrix from linear colors to XYZ, by the definition of chromaticities."""
+    corners = numpy.array([[x / y, 1, (1 - x - y) / y] for x, y in (red, green, blue)]).T
+    x, y = white
+    return corners * numpy.linalg.solve(corners, [x / y, 1, (1 - x - y) / y])
+
+
+WHITE = (0.3127, 0.3290)
+WIDE = ((0.708, 0.292), (0.170, 0.797), (0.131, 0.046))  # Rec. 2020
+WIDE_TO_SRGB = numpy.linalg.solve(to_xyz(WHITE, (0.64, 0.33), (0.30, 0.60), (0.15, 0.06)), to_xyz(WHITE, *WIDE))
+
+
 def png16(samples, gamma=None, chromaticities=None):
     """A PNG file of 16-bit samples: height x width x channels."""
     def chunk(name, content):
@@ -65,7 +77,7 @@ class DeepPictures(Case):
         solid = pixels[..., 3:] > 40  # below, premultiplied half floats have few steps
         for words in (["-d", "half", "--compression", "zip"], ["-d", "float", "--compression", "piz"],
                       ["-d", "float", "--compression", "none"], ["-d", "half", "--compression", "rle", "--tile", "16", "16"]):
-            self.oiio("in.png", "--colorconvert", "sRGB", "linear", *words, "-o", "in.exr")
+            self.oiio("--no-autopremult", "in.png", "--colorconvert", "sRGB", "linear", "--premult", *words, "-o", "in.exr")
             shown = self.shown("in.exr")
             self.assertLessEqual(numpy.abs(shown - pixels)[..., 3].max(), 1, words)
             self.assertLessEqual((numpy.abs(shown - pixels) * solid).max(), 1, words)
@@ -87,12 +99,10 @@ class DeepPictures(Case):
         self.assertEqual(shown[:, :10].max(), 0)
 
     def test_other_primaries_and_bright_colors(self):
-        # Rec. 2020 has the same white, so the matrix follows from the primaries alone.
-        to_srgb = numpy.array([[1.6605, -0.5876, -0.0728], [-0.1246, 1.1329, -0.0083], [-0.0182, -0.1006, 1.1187]])
         colors = self.rng.uniform(0, 1.2, (20, 30, 3))
         Image.fromarray((255 * numpy.clip(colors / 1.2, 0, 1)).round().astype(numpy.uint8)).save(self.path("c.png"))
         stored = 1.2 * (255 * numpy.clip(colors / 1.2, 0, 1)).round() / 255
-        exact = srgb(stored @ to_srgb.T)
+        exact = srgb(stored @ WIDE_TO_SRGB.T)
         self.oiio("c.png", "--mulc", "1.2", "-d", "float", "--attrib:type=float[8]", "chromaticities",
                   "0.708,0.292,0.170,0.797,0.131,0.046,0.3127,0.3290", "-o", "wide.exr")
         self.assertLessEqual(numpy.abs(self.shown("wide.exr")[..., :3] - exact).max(), 1)
@@ -120,9 +130,8 @@ class DeepPictures(Case):
             self.assertEqual(self.shown("nan.exr")[0, 0, 3], 255)
 
     def test_files_with_thousands_of_channels_take_no_memory(self):
-        self.oiio("--create", "16000x2", "1", "-d", "float", "--chnames", "R", "-o", "one.exr")
-        many = ",".join(f"c{i}" for i in range(2000))
-        self.oiio("--create", "16000x2", "2000", "-d", "float", "--chnames", many, "-o", "many.exr")
+        many = ",".join(f"c{i}" for i in range(1000))
+        self.oiio("--create", "16000x2", "1000", "-d", "float", "--chnames", many, "-o", "many.exr")
         scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "many.exr"}, "cage": {"rest": []}})
         self.bad("render", scene, "--out", self.path("out.png"), "--force", says="takes too much memory")
 
@@ -138,12 +147,11 @@ class DeepPictures(Case):
         with open(self.path("plain.png"), "wb") as file:
             file.write(png16(colors))
         self.assertLessEqual(numpy.abs(self.shown("plain.png") - colors / 257).max(), 0.51)
-        wide = (0.3127, 0.3290, 0.708, 0.292, 0.170, 0.797, 0.131, 0.046)
-        to_srgb = numpy.array([[1.6605, -0.5876, -0.0728], [-0.1246, 1.1329, -0.0083], [-0.0182, -0.1006, 1.1187]])
+        wide = WHITE + WIDE[0] + WIDE[1] + WIDE[2]
         with open(self.path("wide.png"), "wb") as file:
             file.write(png16(colors, 1, wide))
         shown = self.shown("wide.png")
-        self.assertLessEqual(numpy.abs(shown[..., :3] - srgb(colors[..., :3] / 65535 @ to_srgb.T)).max(), 1.6)
+        self.assertLessEqual(numpy.abs(shown[..., :3] - srgb(colors[..., :3] / 65535 @ WIDE_TO_SRGB.T)).max(), 1.6)
         self.assertLessEqual(numpy.abs(shown[..., 3] - colors[..., 3] / 257).max(), 0.51)
 
 
