@@ -199,7 +199,7 @@ class EditorWindowTest(WindowCase):
             self.type_into(editor, "Per layer", "120")
             time.sleep(3)
             self.screenshot(editor, "export-small")
-            editor.press_item("Export")
+            editor.key("Return")
             editor.wait(lambda s: os.path.exists(os.path.join(self.work, "window/small.glb")) and not s["exporting"],
                         "a smaller mesh", 120)
             # Other files are replaced only after a question, which counts all of them.
