@@ -174,12 +174,18 @@ class EditorWindowTest(WindowCase):
                 self.assertTrue(file.read(8).startswith(b"8BPS" if kind == "psd" else b"PK"))
 
     def test_meshes_and_st_maps_from_the_dialog_have_the_bits_of_the_command(self):
-        scene = os.path.join(SOURCE, "assets/fern.json")
+        cage = [[20, 20], [280, 20], [280, 180], [20, 180]]
+        scene = self.caged((300, 200), cage)
+        content = load(scene)
+        content["animation"] = {"frames_per_second": 12}
+        content["keyframes"] = [{"time": 0, "pose": {}}, {"time": 1, "pose": {"cage": [[[y + 20, 0.8 * x]] for x, y in cage]}}]
+        with open(scene, "w") as file:
+            json.dump(content, file)
         options = {"glb": ["glb"], "tscn": ["godot"], "pc2": ["pc2"], "exr": ["stmap", "--time", "0"]}
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the scene")
             for extension, words in options.items():
-                out, expected = (os.path.join(self.work, name + "/fern." + extension) for name in ("window", "command"))
+                out, expected = (os.path.join(self.work, name + "/bent." + extension) for name in ("window", "command"))
                 os.makedirs(os.path.dirname(out), exist_ok=True)
                 os.makedirs(os.path.dirname(expected), exist_ok=True)
                 self.ask(editor, "ctrl+e")
@@ -203,13 +209,14 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: os.path.exists(os.path.join(self.work, "window/small.glb")) and not s["exporting"],
                         "a smaller mesh", 120)
             # Other files are replaced only after a question, which counts all of them.
-            os.remove(os.path.join(self.work, "window/fern.tscn"))
+            os.remove(os.path.join(self.work, "window/bent.tscn"))
             texture, = (name for name in os.listdir(os.path.join(self.work, "window")) if name.endswith(".png"))
             with open(os.path.join(self.work, "window", texture), "w") as file:
                 file.write("mine")
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
-            editor.type(os.path.join(self.work, "window/fern.TSCN"))  # names may be in capitals
+            editor.type(os.path.join(self.work, "window/bent.TSCN"))  # names may be in capitals
+            editor.press_item("Full mesh")  # settings stay from one export to the next
             editor.key("Return")
             editor.item("Replace")
             self.screenshot(editor, "export-replace-texture")
@@ -217,7 +224,7 @@ class EditorWindowTest(WindowCase):
                 self.assertEqual(file.read(), "mine")
             editor.key("Return")
             editor.wait(lambda s: not s["exporting"] and not s["asking"], "the export", 120)
-            os.rename(os.path.join(self.work, "window/fern.TSCN"), os.path.join(self.work, "window/fern.tscn"))
+            os.rename(os.path.join(self.work, "window/bent.TSCN"), os.path.join(self.work, "window/bent.tscn"))
         subprocess.run([PROGRAM, "export", scene, "--format", "glb", "--vertices", "120", "--out",
                         os.path.join(self.work, "command/small.glb")], check=True, stderr=subprocess.DEVNULL)
         for name in os.listdir(os.path.join(self.work, "command")):
