@@ -220,6 +220,10 @@ Points polygon_in(const Band& band, const Points& curve) {
     while (2 * step <= most && is_free(i, i + 2 * step)) step *= 2;
     for (size_t more = step; more > 0; more /= 2)
       if (step + more <= most && is_free(i, i + step + more)) step += more;
+    // Where the curve follows the steps of pixels, points farther along it may be free again.
+    for (size_t longer = step + 1; longer <= std::min(4 * step, most);
+         longer += std::max<size_t>(1, step / 4))
+      if (is_free(i, i + longer)) step = longer;
     return i + step;
   };
   // The end of a longest edge is a better start than an arbitrary point.

@@ -157,7 +157,7 @@ Limbs limbs_of(std::mt19937& random, double gap) {
 }  // namespace
 
 TEST_CASE("Limbs that are 3 px apart are apart in the cage, in any direction") {
-  for (const unsigned seed : seeds_of("auto_cage_test", {1, 2, 3, 4})) {
+  for (const unsigned seed : seeds_of("auto_cage_test", {1, 2, 3, 3145988102u})) {
     std::mt19937 random(seed);
     for (int i = 0; i < 12; ++i) {
       // Squares of pixels reach into a slanted gap by up to 0.71 px at each side.
