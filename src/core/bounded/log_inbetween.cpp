@@ -218,14 +218,17 @@ VectorXc LogInbetween::without_jumps(VectorXc f, const VectorXc& gaps) const {
   return f;
 }
 
-/// The change that keeps the constant integrals, by Gauss-Newton steps; `conformal`: of l alone.
+/// The change that keeps the constant integrals, by Gauss-Newton steps from the change that the sum
+/// has; `conformal`: only l changes.
 LogMap LogInbetween::holding(const Interval& interval, double share, Sum sum,
                              bool conformal) const {
-  constexpr int kSteps = 3;
+  constexpr int kSteps = 3, kMostSteps = 8;
+  constexpr double kClosed = 1e-8;  // of the size
   const VectorXc target = (1 - share) * interval.at_from + share * interval.at_to;
-  for (int step = 0; step < kSteps && interval.constant.rows() > 0; ++step) {
+  for (int step = 0; step < kMostSteps && interval.constant.rows() > 0; ++step) {
     const Derivatives d = weighted(sum);
     const VectorXc off = target - interval.constant * integrals_.of(d.phi, d.psi);
+    if (step >= kSteps && off.cwiseAbs().maxCoeff() <= kClosed * size_) break;
     const LogMap more =
         integrals_.smallest({interval.constant, off, LogMap::Second::nu, conformal}, *basis_, d);
     sum.change.l += more.l;
@@ -253,11 +256,20 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
   const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
   const Sum blended = sum;
   const LogMap whole = owner->holding(*this, share, blended, conformal);
+  // A larger change, of l alone, does not increase |nu|, but the size changes more. In between,
+  // both change less.
+  const auto certifies_otherwise = [&] {
+    if (conformal) return false;
+    const LogMap alone = owner->holding(*this, share, blended, true);
+    if (certifies_with(alone, 1)) return true;
+    Sum middle = blended;
+    middle.change.l = 0.5 * (whole.l + alone.l);
+    middle.change.w = 0.5 * (whole.w + alone.w);
+    return certifies_with(owner->holding(*this, share, middle, false), 1);
+  };
   double part = 1;
-  // A larger change, of l alone, does not increase |nu|. If the changed map does not certify either
-  // way, it moves toward the blend, which does.
-  if (!certifies_with(whole, 1) &&
-      (conformal || !certifies_with(owner->holding(*this, share, blended, true), 1))) {
+  // If nothing certifies, the map moves toward the blend, which does.
+  if (!certifies_with(whole, 1) && !certifies_otherwise()) {
     constexpr double kLeast = 1e-3;
     part = 0.5;
     while (!certifies_with(whole, part) && part > 0) part = part > kLeast ? 0.5 * part : 0;

@@ -4,7 +4,7 @@
 // within the bounds of the keys, because they are convex. Smooth motion is a Bezier curve whose
 // inner points are certified, so all of its points are. Then the smallest change keeps those
 // stations still that both keys hold, and closes holes. If it does not certify, a change of l alone
-// is tried, and then smaller changes.
+// is tried, one between the two, and then smaller changes.
 #pragma once
 
 #include <array>
