@@ -184,10 +184,11 @@ class Filter {
     const std::lock_guard lock(mutex_);
     if (in != out)
       std::memcpy(out, in, 4 * static_cast<size_t>(row_) * static_cast<size_t>(height_));
-    if (scene_.empty()) return;
     reload_changed();
     if (failed_) return;
     try {
+      if (scene_.empty())
+        throw Error(ErrorKind::bad_input, "the parameter Scene must be the file of a scene");
       if (!player_) player_.emplace(scene_, is_over(mode_));
       if (!time_) {
         const std::optional<double> rate = frames_per_second();

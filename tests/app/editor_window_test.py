@@ -208,9 +208,26 @@ class EditorWindowTest(WindowCase):
             editor.key("Return")
             editor.wait(lambda s: os.path.exists(os.path.join(self.work, "window/small.glb")) and not s["exporting"],
                         "a smaller mesh", 120)
+            # Esc in the file chooser goes back to the dialog. The name for a skeleton is not that of a scene.
+            self.ask(editor, "ctrl+e")
+            editor.press_item("Format")
+            editor.press_item("Spine skeleton")
+            editor.press_item("Choose...")
+            time.sleep(1)
+            editor.key("Escape")
+            time.sleep(0.5)
+            self.assertTrue(editor.state()["asking"])
+            editor.press_item("Format")
+            editor.press_item("Moving meshes (glTF)")
+            editor.press_item("Format")
+            editor.press_item("Spine skeleton")
+            editor.key("Return")
+            editor.wait(lambda s: not s["exporting"] and not s["asking"], "the skeleton", 120)
+            self.assertTrue(os.path.exists(os.path.join(self.work, "window/small-spine.json")))
+            self.assertFalse(os.path.exists(os.path.join(self.work, "window/small-spine-spine.json")))
             # Other files are replaced only after a question, which counts all of them.
             os.remove(os.path.join(self.work, "window/bent.tscn"))
-            texture, = (name for name in os.listdir(os.path.join(self.work, "window")) if name.endswith(".png"))
+            texture, = (name for name in os.listdir(os.path.join(self.work, "window")) if name.startswith("bent-"))
             with open(os.path.join(self.work, "window", texture), "w") as file:
                 file.write("mine")
             self.ask(editor, "ctrl+e")

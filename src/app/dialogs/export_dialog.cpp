@@ -325,12 +325,13 @@ void ExportDialog::draw_format() {
   for (const ExportChoice& format : known)
     if (dropdown_row(format.label, uses_format(settings_, format))) {
       settings_.kind = format.kind;
-      Path path = Path(name_).replace_extension(format.extension);
-      // A skeleton has the extension of scenes.
-      if (format.extension == ".json" && !path.stem().string().ends_with("-spine"))
-        path.replace_filename(path.stem().string() + "-spine.json");
-      settings_.path = path;
-      name_ = path.string();
+      // A skeleton has the extension of scenes, so its name differs.
+      const std::string skeleton = "-spine";
+      std::string stem = Path(name_).stem().string();
+      if (stem.ends_with(skeleton)) stem.resize(stem.size() - skeleton.size());
+      if (format.extension == ".json") stem += skeleton;
+      settings_.path = Path(name_).replace_filename(stem + format.extension);
+      name_ = settings_.path.string();
       confirming_ = false;
     }
   end_dropdown();
@@ -448,7 +449,10 @@ ExportEstimate::Question ExportDialog::question() const {
 }
 
 void ExportDialog::draw() {
-  if (!open_ || chooser_.open()) return estimate_.stop();  // hidden while a file is being chosen
+  if (!open_ || chooser_.open()) {  // hidden while a file is being chosen
+    choosing_ = open_;
+    return estimate_.stop();
+  }
   if (!begin_dialog("Export", "###export", 620)) return;
   {
     const ScopedLabelWidth wide(px(96));
@@ -470,7 +474,9 @@ void ExportDialog::draw() {
   const bool replaces = confirming_ && !message_.empty();
   const float width = px(112);
   begin_dialog_buttons(2 * width + px(8));
-  const DialogKey key = dialog_key();
+  // The key that closed the chooser is not for this dialog.
+  const bool was_choosing = std::exchange(choosing_, false);
+  const DialogKey key = was_choosing ? DialogKey::none : dialog_key();
   if (button("Cancel", ButtonKind::secondary, width) || key == DialogKey::escape) open_ = false;
   ImGui::SameLine(0, px(8));
   if (button(replaces ? "Replace" : "Export", replaces ? ButtonKind::danger : ButtonKind::primary,

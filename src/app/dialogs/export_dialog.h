@@ -67,6 +67,7 @@ class ExportDialog {
   std::string name_, message_;
   ExportEstimate estimate_;
   bool open_ = false, opening_ = false, confirming_ = false;
+  bool choosing_ = false;  ///< a file was being chosen in the last frame
 };
 
 }  // namespace holomorph
