@@ -3,6 +3,7 @@
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
+#include <ImfCompression.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfRgbaFile.h>
@@ -42,11 +43,30 @@ class BytesStream : public Imf::IStream {
   size_t at_ = 0;
 };
 
+/// How many lines a compression stores together.
+int lines_together(Imf::Compression compression) {
+  switch (compression) {
+    case Imf::NO_COMPRESSION:
+    case Imf::RLE_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION:
+      return 1;
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+      return 32;
+    default:
+      return 256;
+  }
+}
+
 /// Throws Error if reading a few lines of a file would take much memory. The library checks the
 /// sizes of pictures and tiles, but not the number of channels.
 void check_memory(const std::string& bytes, const std::string& name) {
-  constexpr double kMost = 1 << 29;   // bytes
-  constexpr double kMostLines = 256;  // that a compression stores together
+  constexpr double kMost = 1 << 28;  // bytes
   BytesStream stream(bytes, name);
   stream.seekg(4);
   int version = 0;
@@ -59,7 +79,8 @@ void check_memory(const std::string& bytes, const std::string& name) {
     pixel += channel.channel().type == Imf::HALF ? 2 : 4;
   const Imath::Box2i& data = header.dataWindow();
   const double width = static_cast<double>(data.max.x) - static_cast<double>(data.min.x) + 1;
-  const double lines = header.hasTileDescription() ? header.tileDescription().ySize : kMostLines;
+  const double lines = header.hasTileDescription() ? header.tileDescription().ySize
+                                                   : lines_together(header.compression());
   if (width * lines * pixel > kMost)
     throw Error(ErrorKind::bad_input,
                 name + ": reading a line of the picture takes too much memory; it has " +
