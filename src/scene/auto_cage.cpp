@@ -208,7 +208,9 @@ class Band {
 };
 
 /// A polygon in the band with edges as long as possible and vertices on a curve in the band.
-Points polygon_in(const Band& band, const Points& curve) {
+/// `thorough`: edges may be longer than others that leave the band. This matters where the curve
+/// follows the steps of pixels in narrow gaps.
+Points polygon_in(const Band& band, const Points& curve, bool thorough = false) {
   const size_t n = curve.size();
   const auto is_free = [&](size_t i, size_t j) {
     return band.contains(curve[i % n], curve[j % n]);
@@ -220,8 +222,7 @@ Points polygon_in(const Band& band, const Points& curve) {
     while (2 * step <= most && is_free(i, i + 2 * step)) step *= 2;
     for (size_t more = step; more > 0; more /= 2)
       if (step + more <= most && is_free(i, i + step + more)) step += more;
-    // Where the curve follows the steps of pixels, points farther along it may be free again.
-    for (size_t longer = step + 1; longer <= std::min(4 * step, most);
+    for (size_t longer = step + 1; thorough && longer <= std::min(4 * step, most);
          longer += std::max<size_t>(1, step / 4))
       if (is_free(i, i + longer)) step = longer;
     return i + step;
@@ -244,9 +245,12 @@ Points tight_polygon(const Part& part, const Grid<float>* to_gaps, double usual_
     margin = usual_margin;
     for (int tries = 0; tries < kTries; ++tries) {
       const Band band(part, gaps, margin);
-      const Points polygon = polygon_in(band, band.middle());
-      const bool crosses = self_crossing(polygon).has_value(),
-                 fits = static_cast<int>(polygon.size()) <= most;
+      const auto fits_in = [&](const Points& polygon) {
+        return static_cast<int>(polygon.size()) <= most;
+      };
+      Points polygon = polygon_in(band, band.middle());
+      if (gaps && !fits_in(polygon)) polygon = polygon_in(band, band.middle(), true);
+      const bool crosses = self_crossing(polygon).has_value(), fits = fits_in(polygon);
       if (fits && !crosses) return polygon;
       margin = std::clamp(crosses ? 0.6 * margin : 1.4 * margin, 0.5, largest_margin);
     }
