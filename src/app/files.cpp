@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "scene/formats/file_kinds.h"
 #include "scene/formats/svg_path.h"
+#include "system/memory.h"
 #include "system/new_file.h"
 #include "system/text.h"
 
@@ -75,6 +76,7 @@ std::string Files::open(const Path& path) {
   const auto left = std::make_shared<std::vector<Recovery>>();
   const auto read = [opened, left, path, reach = reach()](Job::Progress&) {
     *opened = Document::open(path, reach);
+    return_freed_memory();
     if ((*opened)->path().empty()) return;
     *left = holomorph::recoverable(autosave_folder());
     std::erase_if(*left, [&](const Recovery& each) { return each.origin != (*opened)->path(); });
@@ -240,7 +242,10 @@ void Files::ask_sample(const Path& scene) {
     const auto opened = std::make_shared<std::optional<Document>>();
     workspace_.messages.complain(jobs_.run(
         "Opening " + scene.filename().string(),
-        [opened, scene](Job::Progress&) { *opened = Document::copy_of(scene); },
+        [opened, scene](Job::Progress&) {
+          *opened = Document::copy_of(scene);
+          return_freed_memory();
+        },
         [this, opened] { adopt(std::move(**opened)); }));
   });
 }

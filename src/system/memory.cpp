@@ -18,6 +18,12 @@ void keep_freed_memory() {
 #endif
 }
 
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 long page_faults() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

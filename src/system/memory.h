@@ -9,6 +9,10 @@ namespace holomorph {
 /// Call it once, before other threads start. Does nothing if the C library is not glibc.
 void keep_freed_memory();
 
+/// Returns the memory that is free now to the system, for example after a file has been read. Does
+/// nothing if the C library is not glibc.
+void return_freed_memory();
+
 /// The number of memory pages that the system has prepared for this process so far.
 long page_faults();
 
