@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "system/memory.h"
+
 namespace holomorph {
 
 namespace {
@@ -16,7 +18,10 @@ constexpr size_t kBytesPerFrame = 8 << 20;
 
 int LayerPainter::update_picture(std::shared_ptr<const Image> picture) {
   if (picture == picture_) {
-    uploading_ = uploading_ && renderer_.upload_more(kBytesPerFrame);
+    if (uploading_ && !renderer_.upload_more(kBytesPerFrame)) {
+      uploading_ = false;
+      return_freed_memory();  // the texture's levels were as large as the picture
+    }
     return std::exchange(factor_, 0);
   }
   picture_ = std::move(picture);
