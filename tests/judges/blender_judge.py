@@ -1,6 +1,4 @@
-# Blender: its Python runs our module with the bits of the command line, and its compositor repeats warps by ST-maps.
-import json
-import math
+# Blender's Python runs our module with the bits of the command line.
 import os
 import subprocess
 import sys
@@ -10,7 +8,6 @@ import numpy
 from PIL import Image
 
 sys.path.append(os.path.join(sys.argv[2], "tests/cli"))
-import st_map_test  # noqa: E402
 from case import PROGRAM, SOURCE, Case  # noqa: E402
 
 MODULE = os.path.join(os.path.dirname(PROGRAM), "python")
@@ -24,36 +21,6 @@ points = numpy.mean(mesh.vertices[mesh.triangles], axis=1)[::7]
 numpy.savetxt(sys.argv[-2] + ".csv", numpy.stack([points.real, points.imag], 1), "%.17g", ",")
 numpy.save(sys.argv[-2] + ".npy", scene.map(points))
 numpy.save(sys.argv[-2] + "-picture.npy", scene.render())
-"""
-
-# Straight alpha becomes premultiplied when Blender reads a file, and Map UV interpolates premultiplied pixels.
-MAP_UV = """
-import bpy, sys
-out, picture, st_map = sys.argv[-3:]
-scene = bpy.context.scene
-scene.use_nodes = True
-tree = scene.node_tree
-tree.nodes.clear()
-def image(path, data):
-    node = tree.nodes.new("CompositorNodeImage")
-    node.image = bpy.data.images.load(path)
-    node.image.colorspace_settings.name = "Non-Color" if data else "Raw"
-    return node
-source, uv = image(picture, False), image(st_map, True)
-warp = tree.nodes.new("CompositorNodeMapUV")
-warp.alpha = 0
-tree.links.new(source.outputs["Image"], warp.inputs["Image"])
-tree.links.new(uv.outputs["Image"], warp.inputs["UV"])
-last = tree.nodes.new("CompositorNodeComposite")
-tree.links.new(warp.outputs["Image"], last.inputs["Image"])
-scene.render.resolution_x, scene.render.resolution_y = uv.image.size
-scene.render.resolution_percentage = 100
-scene.render.image_settings.file_format = "OPEN_EXR"
-scene.render.image_settings.color_depth = "32"
-scene.render.image_settings.color_mode = "RGBA"
-scene.view_settings.view_transform = "Raw"
-scene.render.filepath = out
-bpy.ops.render.render(write_still=True)
 """
 
 
@@ -78,25 +45,6 @@ class Blender(Case):
             names = rows.dtype.names
             self.assertTrue((rows[names[0]] == seen.real).all() and (rows[names[1]] == seen.imag).all(), scene)
             print(os.path.basename(scene), len(seen), "points and the picture are the same")
-
-    def test_map_uv_repeats_the_warp(self):
-        worst = math.inf
-        for scene in SAMPLES:
-            with open(scene) as file:
-                content = json.load(file)
-            image = (content.get("image") or {}).get("file")
-            if len(content.get("layers", [None])) > 1 or not image:
-                continue
-            picture = os.path.join(SOURCE, "assets", image)
-            self.good("export", scene, "--format", "stmap", "--out", self.path("st.exr"), "--force")
-            self.good("render", scene, "--crop", "--out", self.path("r.png"), "--force")
-            self.blender(MAP_UV, self.path("warped.exr"), picture, self.path("st.exr"))
-            channels = st_map_test.StMapTest.channels
-            warped = channels(self, self.path("warped.exr"), "RGBA") * channels(self, self.path("st.exr"), "A")
-            ratio = st_map_test.psnr(warped, st_map_test.premultiplied(self.path("r.png")))
-            print(os.path.basename(scene), f"{ratio:.1f} dB")
-            worst = min(worst, ratio)
-        self.assertGreater(worst, 30)
 
 
 if __name__ == "__main__":
