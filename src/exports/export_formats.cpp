@@ -54,24 +54,34 @@ const std::vector<ExportFormat>& export_formats() {
          .extensions = {".obj"},
          .writes = "the surface with the picture as its texture",
          .scale = true}};
-    const auto add_meshes = [&](const char* id, const char* label, const char* extension,
-                                const char* writes, bool all_layers) {
-      formats.push_back({.id = id,
-                         .label = label,
-                         .extensions = {extension},
-                         .writes = writes,
-                         .time = true,
-                         .frames = true,
-                         .meshes = true,
-                         .all_layers = all_layers});
-    };
-    add_meshes("glb", "Moving meshes (glTF)", ".glb", "the moving layers as glTF", true);
-    add_meshes("godot", "Godot 3 scene", ".tscn", "the moving layers as a scene of Godot 3", true);
-    formats.back().textures = true;
-    add_meshes("spine", "Spine skeleton", ".json", "the moving layers as a Spine skeleton", true);
-    formats.back().textures = true;
-    add_meshes("mdd", "Vertex cache (MDD)", ".mdd", "the moving vertices of the mesh", false);
-    add_meshes("pc2", "Vertex cache (PC2)", ".pc2", "the moving vertices of the mesh", false);
+    for (ExportFormat meshes : {ExportFormat{.id = "glb",
+                               .label = "Moving meshes (glTF)",
+                               .extensions = {".glb"},
+                               .writes = "the moving layers as glTF",
+                               .all_layers = true},
+                                {.id = "godot",
+                                .label = "Godot 3 scene",
+                                .extensions = {".tscn"},
+                                .writes = "the moving layers as a scene of Godot 3",
+                                .all_layers = true,
+                                .textures = true},
+                                {.id = "spine",
+                                .label = "Spine skeleton",
+                                .extensions = {".json"},
+                                .writes = "the moving layers as a Spine skeleton",
+                                .all_layers = true,
+                                .textures = true},
+                                {.id = "mdd",
+                                .label = "Vertex cache (MDD)",
+                                .extensions = {".mdd"},
+                                .writes = "the moving vertices of the mesh"},
+                                {.id = "pc2",
+                                .label = "Vertex cache (PC2)",
+                                .extensions = {".pc2"},
+                                .writes = "the moving vertices of the mesh"}}) {
+      meshes.time = meshes.frames = meshes.meshes = true;
+      formats.push_back(std::move(meshes));
+    }
     for (const LayeredFormat& layered : layered_formats())
       formats.push_back({.id = layered.extension.substr(1),
                          .label = layered.label,
