@@ -34,7 +34,7 @@ class PngReader {
     const int width = static_cast<int>(width_), height = static_cast<int>(height_);
     const size_t row = 4 * static_cast<size_t>(width_);
     rows_.resize(height_);
-    if (is_deep()) {
+    if (is_deep_) {
       deep_ = {width, height, std::vector<std::uint16_t>(row * height_)};
       for (size_t r = 0; r < rows_.size(); ++r)
         rows_[r] = reinterpret_cast<png_bytep>(&deep_.pixels[row * r]);
@@ -52,20 +52,17 @@ class PngReader {
   }
 
  private:
-  /// Whether samples of 16 bits are converted before they are rounded to 8 bits.
-  bool is_deep() const { return is_deep_; }
-
   /// Very large pictures are rounded first, because there is no memory for both.
   void take_pixels(PixelBudget& pixels) {
     constexpr double kDeepCopies = 3;  // two bytes instead of one, and the result
     is_deep_ = depth_ == 16 && (profile_size_ > 0 || gamma_ > 0) &&
                kDeepCopies * width_ * height_ <= budget().pixels;
-    pixels.take(width_, height_, name_, 1);
+    pixels.take(width_, height_, name_);
   }
 
   void convert() {
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
-    if (is_deep())
+    if (is_deep_)
       image_ = profile_size_ > 0 ? in_srgb(deep_, profile) : in_srgb(deep_, primaries_, gamma_);
     else if (profile_size_ > 0)
       to_srgb(image_, profile);
@@ -115,15 +112,15 @@ class PngReader {
   /// size must have been checked before.
   void prepare() {
     png_set_expand(png_);
-    if (!is_deep())
+    if (!is_deep_)
       png_set_scale_16(png_);
     else if constexpr (std::endian::native == std::endian::little)
       png_set_swap(png_);
     png_set_gray_to_rgb(png_);
-    png_set_add_alpha(png_, is_deep() ? 65535 : 255, PNG_FILLER_AFTER);
+    png_set_add_alpha(png_, is_deep_ ? 65535 : 255, PNG_FILLER_AFTER);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
-    if (png_get_rowbytes(png_, info_) != (is_deep() ? 8 : 4) * static_cast<size_t>(width_))
+    if (png_get_rowbytes(png_, info_) != (is_deep_ ? 8 : 4) * static_cast<size_t>(width_))
       png_error(png_, "its rows have an unknown format");
   }
 
@@ -150,7 +147,7 @@ class PngReader {
   size_t at_ = 0;
   bool ended_ = false;
   int depth_ = 8;
-  bool is_deep_ = false;
+  bool is_deep_ = false;  ///< samples of 16 bits are converted before they are rounded to 8 bits
   char message_[200] = "";
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
