@@ -1,5 +1,5 @@
-// A frei0r filter for ffmpeg, melt, Kdenlive and Shotcut: warps each frame of a film as the picture
-// of a scene, or draws the scene over it.
+// A frei0r filter for ffmpeg and video editors. It warps each frame as if it were the scene's
+// picture, or draws the scene over the frame.
 #include <dlfcn.h>
 
 #include <charconv>
