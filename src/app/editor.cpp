@@ -25,6 +25,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "edit/content.h"
+#include "edit/film_frames.h"
 #include "edit/key_focus.h"
 #include "edit/picking.h"
 #include "edit/tools/layer_drag.h"
@@ -113,6 +114,7 @@ class Editor {
     open_context_menu(input);
     answer(std::exchange(workspace_.request, Request::none));
     if (advance(workspace_.shown.timeline, workspace_.document.scene(), now_ms())) window_.wake();
+    show_film_frames(workspace_, [this] { window_.wake(); });
     if (workspace_.update_map(
             {is_heat(workspace_.display.view), workspace_.shown.preview.has_value(),
              workspace_.shown.preview ? std::nullopt : workspace_.playback.iteration}))
@@ -471,6 +473,7 @@ class Editor {
       files_.keep_preferences();
     }
     const InspectorParts parts{layers_,
+                               film_,
                                thumbnails_,
                                preferences_,
                                canvas_.edited().heat_scale(),
@@ -522,6 +525,7 @@ class Editor {
   TimelinePanel timeline_;
   LastPictureView last_picture_{[this] { window_.wake(); }};
   LayerPanel layers_;
+  FilmPanel film_;
   Files files_;
   KeysWindow keys_;
   Palette palette_;

@@ -361,10 +361,10 @@ void Files::answer(Request request) {
       break;
     case Request::open:
       ask_about_changes_then([this] {
-        dialog_.ask_open(
-            "Open a picture or scene", "Open",
-            extensions_of({FileContent::scene, FileContent::picture, FileContent::surface}),
-            [this](const Path& path) { return open(path); });
+        dialog_.ask_open("Open a picture, film or scene", "Open",
+                         extensions_of({FileContent::scene, FileContent::picture, FileContent::film,
+                                        FileContent::surface}),
+                         [this](const Path& path) { return open(path); });
       });
       break;
     case Request::save:
@@ -395,6 +395,7 @@ void Files::answer(Request request) {
     case Request::import_outline:
     case Request::add_layer:
     case Request::replace_picture:
+    case Request::play_numbered:
     case Request::find_picture:
     case Request::paste_picture:
       imports_.answer(request);

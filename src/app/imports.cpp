@@ -9,11 +9,18 @@
 #include "core/error.h"
 #include "edit/tools/layer_drag.h"
 #include "edit/tools/tool.h"
+#include "scene/clips.h"
 #include "scene/formats/file_kinds.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/svg_path.h"
 
 namespace holomorph {
+
+/// A film needs the timeline, in which it plays.
+void Imports::show_timeline_of_films() {
+  if (!clip_of(workspace_.document.scene().layer())) return;
+  workspace_.shown.timeline.visible = workspace_.shown.timeline.active = true;
+}
 
 std::string Imports::add_layer(const Path& path) {
   const auto added = std::make_shared<LoadedScene>();
@@ -51,6 +58,7 @@ bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
                       document.pictures().of(scene.layer());
   if (placed) scene = in_the_middle(std::move(scene), *document.pictures().of(scene.layer()));
   if (!workspace_.commit_layers(label, std::move(scene))) return false;
+  show_timeline_of_films();
   if (placed) {
     workspace_.tools.active = ToolId::select;
     const auto all = handles_of(workspace_.shown.deformation(), EditMode::pose);
@@ -80,22 +88,35 @@ void Imports::paste_picture() {
 }
 
 std::string Imports::replace_picture(const Path& path) {
+  return replace_picture(reference_in(path), "Replace picture");
+}
+
+std::string Imports::play_numbered() {
+  const Scene& scene = workspace_.document.scene();
+  ImageReference reference = reference_in(first_numbered_picture(scene.layer().image->file));
+  reference.clip = Clip{scene.animation.frames_per_second};
+  return replace_picture(std::move(reference), "Play as film");
+}
+
+std::string Imports::replace_picture(ImageReference reference, const std::string& label) {
+  const Path path = reference.file;
   const auto picture = std::make_shared<Picture>();
   return jobs_.run(
       "Reading " + path.filename().string(),
-      [picture, path, open = open_pixels()](Job::Progress&) {
-        *picture = read_picture(reference_in(path), open);
+      [picture, reference, open = open_pixels()](Job::Progress&) {
+        *picture = read_picture(reference, open);
       },
-      [this, picture, path] {
+      [this, picture, path, reference, label] {
         chosen_(path);
         Layer layer = workspace_.document.scene().layer();
         const std::optional<ImageReference> before = layer.image;
-        ImageReference now = described(reference_in(path), *picture);
+        ImageReference now = described(reference, *picture);
         workspace_.document.put_picture(now, std::move(*picture));
         if (before) now.extra = before->extra;
         layer.image = now;
         Scene scene = with_layer(workspace_.document.scene(), std::move(layer));
-        if (!workspace_.commit_layers("Replace picture", std::move(scene))) return;
+        if (!workspace_.commit_layers(label, std::move(scene))) return;
+        show_timeline_of_films();
         if (before && (before->width != now.width || before->height != now.height))
           workspace_.messages.say(
               "The new picture has a different size. Cage, pins and strokes keep their positions.");
@@ -108,7 +129,7 @@ void Imports::ask_find_picture() {
   if (missing.empty()) return;
   const std::string asked = document.scene().layers[missing.front()]->image->file;
   chooser_.ask_open("Where is " + Path(asked).filename().string() + "?", "Choose",
-                    extensions_of({FileContent::picture}),
+                    extensions_of({FileContent::picture, FileContent::film}),
                     [this, asked](const Path& path) { return find_picture(path, asked); });
 }
 
@@ -125,6 +146,7 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
       const Path file = chosen ? path : path.parent_path() / Path(was.file).filename();
       ImageReference now = reference_in(file, was.entry);
       now.extra = was.extra;
+      now.clip = was.clip;
       try {
         Picture picture = files.picture(now);
         if (chosen || picture.sha256 == was.sha256)
@@ -224,13 +246,18 @@ void Imports::answer(Request request) {
           [this](const Path& path) { return outline(path); });
       break;
     case Request::add_layer:
-      chooser_.ask_open("Add a picture, or the layers of a scene", "Add",
-                        extensions_of({FileContent::scene, FileContent::picture}),
-                        [this](const Path& path) { return add_layer(path); });
+      chooser_.ask_open(
+          "Add a picture or film, or the layers of a scene", "Add",
+          extensions_of({FileContent::scene, FileContent::picture, FileContent::film}),
+          [this](const Path& path) { return add_layer(path); });
       break;
     case Request::replace_picture:
-      chooser_.ask_open("Replace picture", "Replace", extensions_of({FileContent::picture}),
+      chooser_.ask_open("Replace picture", "Replace",
+                        extensions_of({FileContent::picture, FileContent::film}),
                         [this](const Path& path) { return replace_picture(path); });
+      break;
+    case Request::play_numbered:
+      workspace_.messages.complain(play_numbered());
       break;
     case Request::find_picture:
       ask_find_picture();

@@ -33,6 +33,9 @@ class Imports {
 
  private:
   double open_pixels() const;
+  std::string replace_picture(ImageReference reference, const std::string& label);
+  std::string play_numbered();
+  void show_timeline_of_films();
   bool add_layers_of(const LoadedScene& added, const std::string& label);
   Scene in_the_middle(Scene scene, const Image& picture) const;
   void paste_picture();

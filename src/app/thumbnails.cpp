@@ -15,6 +15,8 @@ constexpr int kLongestSide = 256;
 constexpr size_t kMostThumbnails = 300, kMostWaiting = 200;
 
 Image thumbnail_of_file(const Path& file) {
+  if (is_named_as(file, FileContent::film))
+    return reduced(*read_picture(reference_in(file)).image, kLongestSide);
   if (!is_named_as(file, FileContent::scene))
     return reduced(decode_image(read_file(file), file.filename().string()), kLongestSide);
   const LoadedScene loaded = load_scene(file);
@@ -58,7 +60,8 @@ Image reduced(const Image& picture, int longest) {
 }
 
 bool Thumbnails::can_show(const Path& file) {
-  return is_named_as(file, FileContent::scene) || is_named_as(file, FileContent::picture);
+  return is_named_as(file, FileContent::scene) || is_named_as(file, FileContent::picture) ||
+         is_named_as(file, FileContent::film);
 }
 
 const Texture* Thumbnails::of_file(const Path& file) {

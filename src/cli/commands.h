@@ -81,6 +81,7 @@ struct ExportCommand : SceneCommand {
   std::optional<size_t> vertices = {};  ///< of the mesh of each layer
   std::optional<double> rate = {};      ///< frames of moving meshes per second
   bool keys = false;                    ///< frames of moving meshes only at keyframes
+  bool sound = false;                   ///< of films that are pictures
   std::optional<Path> drawn = {};       ///< numbered pictures to make a film of
   std::optional<Box> rectangle = {};
   bool force = false;

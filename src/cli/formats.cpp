@@ -24,6 +24,8 @@ std::string text_of(FileContent content) {
       return "a scene";
     case FileContent::picture:
       return "a picture";
+    case FileContent::film:
+      return "a film as a picture (needs ffmpeg)";
     case FileContent::path:
       return "a cage or an outline";
     case FileContent::surface:
@@ -40,6 +42,7 @@ std::string options_of(const ExportFormat& format) {
   if (format.crop) options.insert(options.end(), {"--crop", "--rect"});
   if (format.time) options.push_back("--time");
   if (format.frames) options.push_back("--frames");
+  if (format.sound) options.push_back("--sound");
   if (format.meshes) options.push_back("--vertices");
   if (format.all_layers) options.insert(options.end(), {"--rate", "--keys"});
   if (format.st_map) options.insert(options.end(), {"--overscan", "--half"});

@@ -278,6 +278,8 @@ void CommandLine::add_export(CLI::App& app) {
       ->excludes(rate);
   sub->add_option("--drawn", exported.drawn,
                   "Make a film of frames that 'render --frames' has written with this --out");
+  sub->add_flag("--sound", exported.sound,
+                "Keep the sound of films that are pictures of layers; for mp4 and webm");
   sub->add_option("--out", exported.out, "File to write")->required();
   add_rectangle(
       sub, exported.rectangle,

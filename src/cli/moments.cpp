@@ -33,10 +33,11 @@ FrameRange frames_named(const std::string& text, const Scene& scene) {
 }
 
 void require_keyframes(const Scene& scene, const Path& path) {
-  if (!has_keyframes(scene))
-    throw Error(
-        ErrorKind::bad_input,
-        shown_name(path) + ": the scene has no keyframes; --time, --frames and films need them");
+  if (!has_time(scene))
+    throw Error(ErrorKind::bad_input,
+                shown_name(path) +
+                    ": the scene has no keyframes; --time, --frames and films need "
+                    "keyframes, or a film as a picture");
 }
 
 std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path) {

@@ -82,6 +82,7 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   options.picture.scale = command.scale.value_or(1);
   options.picture.crop = command.crop;
   options.picture.region = command.rectangle;
+  options.keeps_sound = command.sound;
   if (command.moments.frames) {
     const FrameRange range = frames_named(*command.moments.frames, loaded.scene);
     options.first = range.first;
@@ -101,7 +102,8 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
       return true;
     };
     film = command.drawn
-               ? write_film_of_pictures(out, loaded.scene, *command.drawn, options, step)
+               ? write_film_of_pictures(out, loaded.scene, *command.drawn, options, step,
+                                        loaded.pictures)
                : write_film(out, loaded.scene, loaded.image(), options, step, loaded.pictures);
   }
   if (is_standard(command.out)) write_standard_output(read_file(out));
@@ -185,6 +187,7 @@ void check_options(const ExportCommand& command) {
     throw_unsupported("--rect", "only pictures and films have a rectangle");
   if (command.overscan && !format.st_map)
     throw_unsupported("--overscan", "only stmap and unwarp-map extend beyond the picture");
+  if (command.sound && !format.sound) throw_unsupported("--sound", "only mp4 and webm have sound");
   if (command.drawn && !format.film)
     throw_unsupported("--drawn", "only films are made of pictures");
   if (command.drawn && (command.scale || command.crop || command.rectangle))

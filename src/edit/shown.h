@@ -34,8 +34,8 @@ class Shown {
   }
   /// The time displayed for all layers. Layers without keyframes keep their own pose at any time.
   std::optional<double> time_of_layers() const {
-    return timeline.active && has_keyframes(document_->scene()) ? std::optional(timeline.time)
-                                                                : std::nullopt;
+    return timeline.active && has_time(document_->scene()) ? std::optional(timeline.time)
+                                                           : std::nullopt;
   }
   Moment moment() const { return {time(), document_->scene().animation.linear_blend}; }
   Moment moment_of_layers() const {

@@ -391,7 +391,7 @@ void Workspace::open(Document opened) {
   mergeable_selection_.reset();
   playback = {};
   shown = Shown(document);
-  shown.timeline.visible = shown.timeline.active = has_keyframes(document.scene());
+  shown.timeline.visible = shown.timeline.active = has_time(document.scene());
   mode = EditMode::pose;
   display.split.reset();
   display.view = View::image;

@@ -33,6 +33,7 @@ enum class Request {
   export_film,
   add_layer,
   replace_picture,
+  play_numbered,
   rename_layer,
   find_picture,
   show_withheld,

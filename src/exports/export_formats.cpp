@@ -99,7 +99,8 @@ const std::vector<ExportFormat>& export_formats() {
                            .scale = true,
                            .crop = true,
                            .frames = true,
-                           .film = true});
+                           .film = true,
+                           .sound = film.needs_ffmpeg});
     return formats;
   }();
   return all;

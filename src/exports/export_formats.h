@@ -14,6 +14,7 @@ struct ExportFormat {
   std::vector<std::string> extensions;  ///< with the dot
   std::string writes;                   ///< what is written, such as "a film"
   bool scale = false, crop = false, time = false, frames = false, st_map = false, film = false;
+  bool sound = false;       ///< films can have the sound of films that are pictures
   bool meshes = false;      ///< the number of vertices can be chosen
   bool all_layers = false;  ///< meshes of all layers, at any rate of frames
   bool sequence = false;    ///< meshes have a file for each frame

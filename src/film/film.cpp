@@ -9,7 +9,9 @@
 #include "raster/compose.h"
 #include "scene/attachments.h"
 #include "scene/budget.h"
+#include "scene/clips.h"
 #include "scene/keyframes.h"
+#include "scene/layers.h"
 
 namespace holomorph {
 namespace {
@@ -50,6 +52,8 @@ int frames_of_film(const Scene& scene, int first, int last, bool loops) {
   const double rate = scene.animation.frames_per_second;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Deformation& deformation = scene.layers[i]->deformation;
+    if (const Clip* clip = clip_of(*scene.layers[i]); clip && is_shown(scene, i))
+      if (frame_at(*clip, first / rate) != frame_at(*clip, last / rate)) return all;
     const bool shows_motion = scene.layers[i]->visible || carries_others(scene, i);
     if (!shows_motion || playing_keys(deformation).empty()) continue;
     const Keyframe *from = key_shown_at(deformation, first / rate),
@@ -68,8 +72,9 @@ struct FilmFrames {
 
 /// Throws Error if the scene has no such frames.
 FilmFrames frames_of(const Scene& scene, const FilmOptions& options) {
-  if (!has_keyframes(scene))
-    throw Error(ErrorKind::bad_input, "a film needs keyframes, and the scene has none");
+  if (!has_time(scene))
+    throw Error(ErrorKind::bad_input,
+                "a film needs keyframes or a film as a picture, and the scene has neither");
   const int last = options.last < 0 ? last_frame_of(scene) : options.last;
   if (options.first < 0 || last < options.first || last > last_frame_of(scene))
     throw Error(ErrorKind::bad_input,
@@ -78,6 +83,22 @@ FilmFrames frames_of(const Scene& scene, const FilmOptions& options) {
   const int frames = frames_of_film(scene, options.first, last, options.loops);
   check_budget(&Budget::frames, frames, "the film has");
   return {options.first, frames};
+}
+
+/// The film's properties, without the size of its frames. Throws Error if it should have sound, but
+/// there is none.
+FilmShape shape_of(const Path& out, const Scene& scene, const FilmFrames& frames,
+                   const FilmOptions& options, const Pictures& pictures) {
+  const double rate = scene.animation.frames_per_second;
+  FilmShape shape{0, 0, rate, options.loops, frames.count / rate};
+  if (!options.keeps_sound) return shape;
+  if (!film_format_of(out).needs_ffmpeg)
+    throw Error(ErrorKind::bad_input,
+                out.string() + ": this format has no sound; choose .mp4 or .webm");
+  shape.sound = sound_of(scene, pictures, frames.first / rate);
+  if (shape.sound.empty())
+    throw Error(ErrorKind::bad_input, "none of the visible layers has a film with sound");
+  return shape;
 }
 
 /// Writes the frames that `frame_at` gives for the numbers from 0 on.
@@ -92,8 +113,10 @@ std::optional<WrittenFilm> write_frames(const Path& out, const FilmShape& settin
     const RasterResult frame = frame_at(i);
     if (!writer) {
       film = {frames, frame.image.width, frame.image.height, frame.corner};
-      writer =
-          format.open(out, {film.width, film.height, settings.frames_per_second, settings.loops});
+      FilmShape shape = settings;
+      shape.width = film.width;
+      shape.height = film.height;
+      writer = format.open(out, shape);
     }
     if (frame.image.width != film.width || frame.image.height != film.height)
       throw Error(ErrorKind::bad_input,
@@ -119,6 +142,7 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
   const FilmFrames range = frames_of(scene, options);
   const int frames = range.count;
   const double rate = scene.animation.frames_per_second;
+  const FilmShape shape = shape_of(out, scene, range, options, others);
   PictureMaker maker(scene, source, others);
   PictureOptions picture = options.picture;
   if (!picture.crop && !picture.region) {
@@ -141,20 +165,20 @@ std::optional<WrittenFilm> write_film(const Path& out, const Scene& scene, const
     }
     if (!filled.empty()) picture.region = filled;
   }
-  return write_frames(out, {0, 0, rate, options.loops}, frames, frame_at, progress);
+  return write_frames(out, shape, frames, frame_at, progress);
 }
 
 std::optional<WrittenFilm> write_film_of_pictures(
     const Path& out, const Scene& scene, const Path& pictures, const FilmOptions& options,
-    const std::function<bool(int done, int all)>& progress) {
+    const std::function<bool(int done, int all)>& progress, const Pictures& films) {
   film_format_of(out);
   const FilmFrames range = frames_of(scene, options);
+  const FilmShape shape = shape_of(out, scene, range, options, films);
   const auto frame_at = [&](int i) {
     const Path file = numbered(pictures, range.first + i);
     return RasterResult{decode_image(read_file(file), file.string()), 0};
   };
-  return write_frames(out, {0, 0, scene.animation.frames_per_second, options.loops}, range.count,
-                      frame_at, progress);
+  return write_frames(out, shape, range.count, frame_at, progress);
 }
 
 }  // namespace holomorph

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scene/formats/image.h"
+#include "film/sound.h"
 
 namespace holomorph {
 
@@ -11,7 +11,9 @@ namespace holomorph {
 struct FilmShape {
   int width = 0, height = 0;
   double frames_per_second = 24;
-  bool loops = true;  ///< if the format supports it
+  bool loops = true;   ///< if the format supports it
+  double seconds = 0;  ///< its length; needed only with sound
+  std::vector<SoundTrack> sound = {};
 };
 
 /// Writes one film. If it is destroyed before finish(), nothing of the film remains.
@@ -26,7 +28,7 @@ class FilmWriter {
 
 struct FilmFormat {
   std::string extension, label;
-  bool needs_ffmpeg = false;
+  bool needs_ffmpeg = false;  ///< such formats can have sound
   std::unique_ptr<FilmWriter> (*open)(const Path& out, const FilmShape& shape) = nullptr;
 };
 

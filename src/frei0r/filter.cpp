@@ -13,6 +13,7 @@
 #include "frei0r/host_time.h"
 #include "raster/compose.h"
 #include "raster/picture.h"
+#include "scene/clips.h"
 #include "scene/keyframes.h"
 #include "scene/loading.h"
 #include "system/text.h"
@@ -74,7 +75,7 @@ class ScenePlayer {
   ScenePlayer(const Path& file, bool over)
       : loaded_(loaded(file, over)),
         maker_(loaded_.scene, loaded_.image(), loaded_.pictures),
-        plays_(has_playing_keys(loaded_.scene)) {}
+        plays_(has_playing_keys(loaded_.scene) || has_clips(loaded_.scene)) {}
 
   double rate() const { return loaded_.scene.animation.frames_per_second; }
 

@@ -9,6 +9,7 @@
 #include "raster/compose.h"
 #include "raster/motion_box.h"
 #include "scene/attachments.h"
+#include "scene/clips.h"
 #include "scene/fringe.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
@@ -24,11 +25,13 @@ RasterResult picture_of(const Scene& scene, const Image* source, const PictureOp
 /// One layer, prepared when it is first drawn.
 class PictureMaker::LayerMaker {
  public:
-  LayerMaker(const Layer& layer, bool linear_blend, const Image* source)
+  LayerMaker(const Layer& layer, bool linear_blend, const Image* source,
+             std::shared_ptr<Footage> footage)
       : layer_(layer),
         deformation_(layer.deformation),
         linear_blend_(linear_blend),
-        source_(source) {
+        source_(source),
+        footage_(std::move(footage)) {
     if (source) extent_ = {double(source->width), double(source->height)};
   }
 
@@ -39,6 +42,17 @@ class PictureMaker::LayerMaker {
                     ? Extent{double(image->width), double(image->height)}
                     : Extent{double(picture.width), double(picture.height)};
     source_ = &picture;
+    footage_.reset();
+    fringe_.reset();
+  }
+
+  /// Shows the frame of the layer's film, if it has one.
+  void show_frame(double time) {
+    if (!footage_) return;
+    auto frame = footage_->frame(holomorph::frame_at(*clip_of(layer_), time));
+    if (frame == frame_) return;
+    frame_ = std::move(frame);
+    source_ = frame_.get();
     fringe_.reset();
   }
 
@@ -198,7 +212,9 @@ class PictureMaker::LayerMaker {
   const Deformation& deformation_;
   bool linear_blend_;
   const Image* source_;
-  Extent extent_;  ///< of the picture's rectangle
+  std::shared_ptr<Footage> footage_;    ///< null: the source does not move
+  std::shared_ptr<const Image> frame_;  ///< the source, if it is a frame of the film
+  Extent extent_;                       ///< of the picture's rectangle
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
   std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
@@ -212,9 +228,9 @@ PictureMaker::PictureMaker(const Scene& scene, const Image* source, const Pictur
     : scene_(scene) {
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
-    layers_.push_back(
-        std::make_unique<LayerMaker>(layer, scene.animation.linear_blend,
-                                     i == scene.edited ? source : other_pictures.of(layer)));
+    layers_.push_back(std::make_unique<LayerMaker>(
+        layer, scene.animation.linear_blend, i == scene.edited ? source : other_pictures.of(layer),
+        other_pictures.footage(layer)));
   }
 }
 
@@ -222,6 +238,11 @@ PictureMaker::~PictureMaker() = default;
 
 void PictureMaker::show(const Image& picture) {
   layers_[scene_.edited]->show(picture);
+}
+
+void PictureMaker::show_frames(double time) {
+  for (size_t i = 0; i < layers_.size(); ++i)
+    if (is_shown(scene_, i)) layers_[i]->show_frame(time);
 }
 
 Box PictureMaker::rectangle() const {
@@ -259,7 +280,9 @@ std::optional<RasterResult> PictureMaker::originals(const PictureOptions& option
 }
 
 RasterResult PictureMaker::picture(const PictureOptions& options) {
-  if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_)) throw no_key_plays();
+  if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_) && !has_clips(scene_))
+    throw no_key_plays();
+  if (options.time) show_frames(*options.time);
   const Frame frame = frame_of(options);
   const auto drawn = [&](size_t layer) {
     return layers_[layer]->picture(frame.options, frame.top, placement(layer, options.time));

@@ -16,8 +16,10 @@ struct PictureOptions {
   bool crops_to_filled = false;  ///< crop to the pixels that are not transparent, before the
                                  ///< background is added
   bool automatic_range = false;
-  std::optional<Box> region = {};   ///< draw exactly this part of the plane
-  std::optional<double> time = {};  ///< seconds on the timeline; if not set, the scene's pose
+  std::optional<Box> region = {};  ///< draw exactly this part of the plane
+  /// Seconds on the timeline; if not set, the scene's pose, and the frames of films that the
+  /// pictures show.
+  std::optional<double> time = {};
 };
 
 /// Draws the posed scene: its visible layers over its background. `source` is the edited layer's
@@ -30,7 +32,8 @@ RasterResult picture_of(const Scene& scene, const Image* source, const PictureOp
 /// Draws pictures of one scene at many times but prepares its layers only once.
 class PictureMaker {
  public:
-  /// Arguments as in picture_of; all of them must outlive this object. Throws Error.
+  /// Arguments as in picture_of; all of them must outlive this object. Films are those of
+  /// `other_pictures`, also for the edited layer. Throws Error.
   PictureMaker(const Scene& scene, const Image* source, const Pictures& other_pictures = {});
   ~PictureMaker();
 
@@ -38,8 +41,8 @@ class PictureMaker {
   /// One layer alone, as it is before its opacity and blending are applied, even if it is hidden.
   /// None if it has no picture.
   std::optional<RasterResult> layer(size_t number, const PictureOptions& options);
-  /// Shows another picture, of any size, in the rectangle of the edited layer's picture. It must
-  /// stay alive until the next call.
+  /// Shows another picture, of any size, in the rectangle of the edited layer's picture, and stops
+  /// its film. It must stay alive until the next call.
   void show(const Image& picture);
   /// The undeformed pictures of the visible layers; none if there are none.
   std::optional<RasterResult> originals(const PictureOptions& options) const;
@@ -59,6 +62,7 @@ class PictureMaker {
     double top = 0;          ///< the upper edge of the pictures, at which rows of pixels start
   };
   Frame frame_of(const PictureOptions& options) const;
+  void show_frames(double time);
   bool draws(size_t layer) const;
   /// Where the plane of a layer lies in the scene's plane.
   Similarity placement(size_t layer, const std::optional<double>& time);

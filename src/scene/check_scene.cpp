@@ -9,6 +9,7 @@
 #include "core/outline/outline_match.h"
 #include "scene/attachments.h"
 #include "scene/budget.h"
+#include "scene/clips.h"
 #include "scene/formats/scene_json.h"
 
 namespace holomorph {
@@ -159,13 +160,21 @@ bool has_extras(const Deformation& deformation) {
          std::ranges::any_of(deformation.keyframes, kept_in_pose);
 }
 
+void check_clip(const Clip& clip) {
+  check_range("the film's frame rate", clip.frames_per_second, kMinFrameRate, kMaxFrameRate);
+  check_range("the film's start", clip.start, -kMaxTime, kMaxTime);
+  check_range("the film's first frame", clip.first, 0, last_played_frame(clip));
+}
+
 /// Whether the scene contains keys from its file that this version does not know.
 bool has_extras(const Scene& scene) {
   return !scene.extra.empty() || !scene.animation_extra.empty() ||
          std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
            return !layer->extra.empty() ||
                   (layer->attachment && !layer->attachment->extra.empty()) ||
-                  (layer->image && !layer->image->extra.empty()) || has_extras(layer->deformation);
+                  (layer->image && !layer->image->extra.empty()) ||
+                  (clip_of(*layer) && !clip_of(*layer)->extra.empty()) ||
+                  has_extras(layer->deformation);
          });
 }
 
@@ -211,6 +220,7 @@ void check_scene(const Scene& scene) {
       if (layer.image && layer.image->width > 0)
         for (const int side : {layer.image->width, layer.image->height})
           check_range("the picture's size", side, 1, kMaxImageSide);
+      if (const Clip* clip = clip_of(layer)) check_clip(*clip);
       check_handles(layer.deformation);
       check_paint_and_outline(layer.deformation);
       const Method& method = method_named(layer.deformation.method);

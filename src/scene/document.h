@@ -67,6 +67,10 @@ class Document {
   void put_picture(const ImageReference& reference, Picture picture) {
     pictures_.put(reference, std::move(picture));
   }
+  /// Makes a frame of a layer's film the picture of this layer.
+  void show_frame(const Layer& layer, std::shared_ptr<const Image> frame) {
+    pictures_.show_frame(layer, std::move(frame));
+  }
   /// Stores all pictures of another scene.
   void add_pictures(const Pictures& pictures) { pictures_.add(pictures); }
   /// Allows reading the files that are out of reach.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scene/clips.h"
 
 namespace holomorph {
 namespace {
@@ -69,8 +70,16 @@ Error no_key_plays() {
           "none of the keyframes matches the scene's cage points, pins and strokes"};
 }
 
+bool has_time(const Scene& scene) {
+  return has_keyframes(scene) || has_clips(scene);
+}
+
 bool plays(const Scene& scene) {
-  return any_layer(scene, [](const Deformation& layer) { return playing_keys(layer).size() > 1; });
+  return std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
+    const Clip* clip = clip_of(*layer);
+    return playing_keys(layer->deformation).size() > 1 ||
+           (clip && last_played_frame(*clip) > clip->first && end_of(*clip) > 0);
+  });
 }
 
 double length_of(const Scene& scene) {
@@ -78,7 +87,9 @@ double length_of(const Scene& scene) {
   for (const SharedLayer& layer : scene.layers)
     if (const auto& keys = layer->deformation.keyframes; !keys.empty())
       length = std::max(length, keys.back().time);
-  return length;
+  for (const SharedLayer& layer : scene.layers)
+    if (const Clip* clip = clip_of(*layer)) length = std::max(length, end_of(*clip));
+  return std::min(length, kMaxTime);
 }
 
 int last_frame_of(const Scene& scene) {

@@ -19,14 +19,18 @@ std::vector<size_t> playing_keys(const Deformation& deformation);
 bool has_keyframes(const Scene& scene);
 /// Whether any layer has a keyframe that plays.
 bool has_playing_keys(const Scene& scene);
-/// Whether the scene moves, that is, whether any layer has at least two keyframes that play.
+/// Whether the scene may differ from one time to another: any layer has keyframes or a film.
+bool has_time(const Scene& scene);
+/// Whether the scene moves, that is, whether any layer has at least two keyframes that play, or a
+/// film.
 bool plays(const Scene& scene);
 /// The error to throw if there are keyframes but none of them plays.
 Error no_key_plays();
-/// The latest key time in any layer; 0 without keyframes.
+/// The latest key time in any layer, or the time of the last frame of a film if that is later; 0
+/// without either.
 double length_of(const Scene& scene);
 /// The index of the last frame. Frame i is at time i / frames_per_second. The last frame is at the
-/// time of the last key, or just after it.
+/// time length_of(scene), or just after it.
 int last_frame_of(const Scene& scene);
 /// The times of all frames, in seconds.
 std::vector<double> frame_times(const Scene& scene);

@@ -3,7 +3,10 @@
 
 #include "core/error.h"
 #include "scene/budget.h"
+#include "scene/clips.h"
 #include "scene/flattened_surface.h"
+#include "scene/formats/file_kinds.h"
+#include "scene/formats/film_frames.h"
 #include "scene/formats/layered.h"
 #include "scene/formats/scene_json.h"
 #include "scene/preferences.h"
@@ -70,6 +73,8 @@ std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, 
   const Picture& picture = *pictures.find(reference);
   const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
   reference = described(std::move(reference), picture);
+  if (picture.footage)
+    pictures.show_frame(layer, picture.footage->frame(frame_at(*reference.clip, 0)));
   return other ? "The picture " + Path(reference.file).filename().string() +
                      " has changed since the scene was saved."
                : "";
@@ -149,6 +154,9 @@ Sources sources_of(const Scene& scene, const Path& scene_path) {
   Sources sources{scene_path, {}, {}};
   for (const SharedLayer& layer : scene.layers) {
     if (layer->image) sources.images.emplace_back(layer->image->file);
+    if (clip_of(*layer) && !is_named_as(layer->image->file, FileContent::film))
+      for (Path& file : numbered_pictures(layer->image->file))
+        sources.images.push_back(std::move(file));
     if (const auto& surface = layer->deformation.surface)
       sources.surfaces.emplace_back(surface->file);
   }
@@ -196,6 +204,8 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
     loaded.warning = "Not kept from this file: " + in_file.warning + ". ";
   if (in_file.layers.empty()) {
     loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
+    if (const Clip* clip = clip_of(loaded.scene.layer()))
+      loaded.scene.animation.frames_per_second = clip->frames_per_second;
     // Parts of a photograph that move away leave gaps, which the original fills.
     if (loaded.image() && is_opaque(*loaded.image()))
       loaded.scene.background.fill = Background::Fill::original;

@@ -1,25 +1,47 @@
 // Changes to a file are detected by its modification time.
 #include "scene/pictures.h"
 
+#include "scene/clips.h"
+#include "scene/formats/file_kinds.h"
 #include "scene/formats/layered.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;
 
-const PictureFiles::File& PictureFiles::read(const std::string& name) {
+namespace {
+
+constexpr size_t kHashedBytes = size_t{16} << 20;  ///< of a film
+
+bool is_film(const std::string& file) {
+  return is_named_as(file, FileContent::film);
+}
+
+}  // namespace
+
+PictureFiles::File& PictureFiles::read(const std::string& name) {
   const auto found = files_.find(name);
   if (found != files_.end()) return found->second;
   File file;
   std::error_code ignored;
   file.changed = fs::last_write_time(name, ignored);  // before reading, to detect later changes
-  file.bytes = read_file(name);
+  file.bytes = is_film(name) ? read_start(name, kHashedBytes) : read_file(name);
   file.sha256 = sha256_hex(file.bytes);
+  if (is_film(name)) file.bytes.clear();
   return files_.emplace(name, std::move(file)).first->second;
 }
 
 Picture PictureFiles::picture(const ImageReference& reference) {
   const std::string& name = reference.file;
-  const File& file = read(name);
+  File& file = read(name);
+  if (is_film(name) || reference.clip) {
+    if (!file.footage) {
+      auto reader = is_film(name) ? open_film(name) : open_numbered_pictures(name);
+      file.footage = std::make_shared<Footage>(std::move(reader));
+      const auto first = file.footage->frame(0);
+      pixels_.take(static_cast<size_t>(first->width), static_cast<size_t>(first->height), name);
+    }
+    return {file.footage->frame(0), file.sha256, file.changed, file.footage};
+  }
   Image image = reference.entry.empty() ? decode_image(file.bytes, name, pixels_)
                                         : decode_layer(file.bytes, reference.entry, name, pixels_);
   return {std::make_shared<const Image>(std::move(image)), file.sha256, file.changed};
@@ -36,25 +58,49 @@ ImageReference described(ImageReference reference, const Picture& picture) {
   reference.width = picture.image->width;
   reference.height = picture.image->height;
   reference.sha256 = picture.sha256;
+  if (!picture.footage) return reference;
+  const FilmInfo& film = picture.footage->info();
+  if (!reference.clip) reference.clip = Clip{film.frames_per_second};
+  reference.clip = fitted(*std::move(reference.clip), film.frames);
   return reference;
 }
 
-std::shared_ptr<const Image> Pictures::shared(const Layer& layer) const {
+std::shared_ptr<const Image> Pictures::still(const Layer& layer) const {
   const Picture* found = layer.image ? find(*layer.image) : nullptr;
   return found ? found->image : nullptr;
+}
+
+std::shared_ptr<Footage> Pictures::footage(const Layer& layer) const {
+  const Picture* found = clip_of(layer) ? find(*layer.image) : nullptr;
+  return found ? found->footage : nullptr;
+}
+
+std::shared_ptr<const Image> Pictures::shared(const Layer& layer) const {
+  const auto frame = frames_.find(layer.id);
+  if (frame == frames_.end()) return still(layer);
+  const std::shared_ptr<Footage> footage = this->footage(layer);
+  return footage && footage == frame->second.footage.lock() ? frame->second.image : still(layer);
+}
+
+void Pictures::show_frame(const Layer& layer, std::shared_ptr<const Image> frame) {
+  frames_[layer.id] = {footage(layer), std::move(frame)};
 }
 
 const Image* Pictures::of(const Layer& layer) const {
   return shared(layer).get();
 }
 
+Pictures::Source Pictures::source_of(const ImageReference& reference) {
+  return {reference.file, reference.entry, reference.clip || is_film(reference.file)};
+}
+
 const Picture* Pictures::find(const ImageReference& reference) const {
-  const auto found = all_.find({reference.file, reference.entry});
+  const auto found = all_.find(source_of(reference));
   return found == all_.end() ? nullptr : &found->second;
 }
 
 void Pictures::put(const ImageReference& reference, Picture picture) {
-  all_[{reference.file, reference.entry}] = std::move(picture);
+  all_[source_of(reference)] = std::move(picture);
 }
 
 void Pictures::add(const Pictures& others) {
@@ -64,18 +110,19 @@ void Pictures::add(const Pictures& others) {
 
 double Pictures::pixels() const {
   double count = 0;
-  for (const auto& [name, picture] : all_)
+  for (const auto& [source, picture] : all_)
     count += static_cast<double>(picture.image->width) * picture.image->height;
   return count;
 }
 
 std::vector<ImageReference> Pictures::changed() const {
   std::vector<ImageReference> all;
-  for (const auto& [name, picture] : all_) {
+  for (const auto& [source, picture] : all_) {
     std::error_code error;
-    const auto now = fs::last_write_time(name.first, error);
+    const auto now = fs::last_write_time(source.file, error);
     if (error || now == picture.changed) continue;
-    all.push_back(reference_in(name.first, name.second));
+    all.push_back(reference_in(source.file, source.entry));
+    if (source.moves) all.back().clip.emplace();
   }
   return all;
 }

@@ -7,16 +7,17 @@
 #include <optional>
 #include <set>
 
-#include "scene/formats/image.h"
+#include "scene/footage.h"
 #include "scene/scene.h"
 
 namespace holomorph {
 
 /// A picture and the properties of its file.
 struct Picture {
-  std::shared_ptr<const Image> image;
-  std::string sha256;                            ///< of the file's bytes
+  std::shared_ptr<const Image> image;            ///< of a film, its first frame
+  std::string sha256;                            ///< as in ImageReference
   std::filesystem::file_time_type changed = {};  ///< the file's modification time
+  std::shared_ptr<Footage> footage = {};         ///< if the picture moves
 };
 
 /// Reads the pictures named by references. A file named by several references is read once.
@@ -24,17 +25,19 @@ class PictureFiles {
  public:
   /// `open` is the number of pixels in pictures that are already open.
   explicit PictureFiles(double open = 0) : pixels_(open) {}
-  /// Reads the picture that a reference names. Throws Error.
+  /// Reads the picture that a reference names: a film, the numbered pictures that begin with this
+  /// file if the reference has a clip, or else a picture. Throws Error.
   Picture picture(const ImageReference& reference);
-  /// The SHA-256 of a file's bytes. Does not decode the picture. Throws Error.
+  /// The SHA-256 of a file, as in ImageReference. Does not decode the picture. Throws Error.
   const std::string& sha256(const std::string& file) { return read(file).sha256; }
 
  private:
   struct File {
-    std::string bytes, sha256;
+    std::string bytes, sha256;  ///< of a film, no bytes
     std::filesystem::file_time_type changed = {};
+    std::shared_ptr<Footage> footage = {};  ///< once it was asked for
   };
-  const File& read(const std::string& name);
+  File& read(const std::string& name);
 
   std::map<std::string, File> files_;  ///< keyed by path
   PixelBudget pixels_;
@@ -46,15 +49,23 @@ inline Picture read_picture(const ImageReference& reference, double open = 0) {
 /// A reference to the picture in a file, or to one layer (`entry`) of a file with layers. The
 /// reference has the file's absolute path.
 ImageReference reference_in(const Path& file, const std::string& entry = "");
-/// The reference with the size and SHA-256 of this picture.
+/// The reference with the size and SHA-256 of this picture. A film without a clip gets one that
+/// plays all of it, from time 0 on.
 ImageReference described(ImageReference reference, const Picture& picture);
 
 /// A collection of pictures, looked up by the file's absolute path and the layer in the file.
 class Pictures {
  public:
-  /// The picture of a layer; null if it has none, or if it was not read.
+  /// The picture of a layer; null if it has none, or if it was not read. Of a film, the frame that
+  /// show_frame() chose.
   const Image* of(const Layer& layer) const;
   std::shared_ptr<const Image> shared(const Layer& layer) const;
+  /// The same, but always the first frame of a film.
+  std::shared_ptr<const Image> still(const Layer& layer) const;
+  /// The film of a layer whose picture moves; null for all others.
+  std::shared_ptr<Footage> footage(const Layer& layer) const;
+  /// Makes a frame of a layer's film the picture of this layer.
+  void show_frame(const Layer& layer, std::shared_ptr<const Image> frame);
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
   /// Withholds a file that a scene names: it must not be accessed until the user agrees.
@@ -69,7 +80,20 @@ class Pictures {
   std::vector<ImageReference> changed() const;
 
  private:
-  std::map<std::pair<std::string, std::string>, Picture> all_;  ///< keyed by file and entry
+  /// What a picture is read from. A file may be used as a picture and as the first of many frames.
+  struct Source {
+    std::string file, entry;
+    bool moves = false;
+    auto operator<=>(const Source&) const = default;
+  };
+  static Source source_of(const ImageReference& reference);
+  std::map<Source, Picture> all_;
+  /// The frames of films, by the id of the layer that shows them.
+  struct ShownFrame {
+    std::weak_ptr<Footage> footage;  ///< to which the frame belongs
+    std::shared_ptr<const Image> image;
+  };
+  std::map<int, ShownFrame> frames_;
   std::set<std::string> withheld_;
 };
 

@@ -9,14 +9,29 @@
 
 namespace holomorph {
 
+/// How a film, or a row of numbered pictures, plays as the picture of a layer. Frames have numbers
+/// from 0 on.
+struct Clip {
+  double frames_per_second = 24;  ///< at which it plays
+  int frames = 0;                 ///< of the whole film; 0: not known, because it was not opened
+  int first = 0;                  ///< the first frame that plays
+  std::optional<int> last = {};   ///< the last frame that plays; none: that of the film
+  double start = 0;               ///< the time of the first frame, in seconds
+  bool loops =
+      false;  ///< starts again after the last frame, which else stays; also before the first
+  Extra extra = {};
+  bool operator==(const Clip&) const = default;
+};
+
 /// A reference to the picture of a layer, with properties of its file. The path is relative to the
 /// scene's folder in a scene file, and absolute in a loaded scene.
 struct ImageReference {
   std::string file;
   std::string entry = {};  ///< for a layer of a file with layers, its FileLayer::entry
   int width = 0, height = 0;
-  std::string sha256;
+  std::string sha256;  ///< of the file's bytes, or of the first 16 MiB of a film
   Extra extra;
+  std::optional<Clip> clip = {};  ///< if the picture moves
   bool operator==(const ImageReference&) const = default;
 };
 

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <vector>
@@ -53,7 +54,10 @@ std::string shortened(const Path& path) {
   return name.size() <= kMost ? name : name.substr(0, kMost) + "...";
 }
 
-std::string read_path(const Path& path, size_t limit, bool streams) {
+enum class IfLarger { fail, cut };
+
+std::string read_path(const Path& path, size_t limit, bool streams,
+                      IfLarger if_larger = IfLarger::fail) {
   const auto refuse = [&](const std::string& why) {
     return Error(ErrorKind::bad_input, shortened(path) + ": " + why);
   };
@@ -71,10 +75,11 @@ std::string read_path(const Path& path, size_t limit, bool streams) {
   // The name may now refer to a different file from the one that was checked.
   if (::fstat(fd, &found) != 0 || !S_ISREG(found.st_mode))
     throw refuse("this is not a regular file");
-  if (static_cast<size_t>(found.st_size) > limit)
+  const size_t size = static_cast<size_t>(found.st_size);
+  if (size > limit && if_larger == IfLarger::fail)
     throw refuse("the file is larger than " + std::to_string(limit >> 20) + " MB");
   // Read no more than the size of the file, because some system files have no end.
-  std::string bytes(static_cast<size_t>(found.st_size), '\0');
+  std::string bytes(std::min(size, limit), '\0');
   size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::read(fd, bytes.data() + done, bytes.size() - done);
@@ -107,6 +112,10 @@ bool is_file(const Path& path) {
 
 std::string read_file(const Path& path, size_t limit) {
   return read_path(path, limit, false);
+}
+
+std::string read_start(const Path& path, size_t count) {
+  return read_path(path, count, false, IfLarger::cut);
 }
 
 std::string read_stream(const Path& path, size_t limit) {

@@ -22,6 +22,9 @@ bool is_file(const Path& path);
 /// or larger than `limit` bytes.
 std::string read_file(const Path& path, size_t limit = size_t{1} << 30);
 
+/// The first bytes of a regular file, at most `count`. Throws Error{bad_input} like read_file().
+std::string read_start(const Path& path, size_t count);
+
 /// Like read_file(), but also reads a pipe or a device up to its end. The call may block. Use it
 /// only for files that the user names, not for files that another file names.
 std::string read_stream(const Path& path, size_t limit = size_t{1} << 30);

@@ -286,6 +286,59 @@ class EditorWindowTest(WindowCase):
             self.plain("caged.png", BLUE)
             self.wait_color(editor, (150, 100), BLUE, "the next one")
 
+    def film(self, colors, rate):
+        """A film with one color per frame."""
+        path = os.path.join(self.work, "film.mp4")
+        frames = b"".join(bytes(color + (255,)) * (300 * 200) for color in colors)
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", "300x200",
+                        "-framerate", str(rate), "-i", "-", "-c:v", "libx264", "-pix_fmt", "yuv444p", "-g", "250", path],
+                       input=frames, check=True)
+        return path
+
+    def test_a_film_plays_as_a_picture(self):
+        colors = [RED, GREEN, BLUE] * 8
+        with Editor(PROGRAM, [self.film(colors, 4)], size="1400x1200") as editor:
+            state = editor.wait(lambda s: s["pictured"] and s["shows_time"], "the film and its timeline")
+            self.assertFalse(state["runs"])
+            for k in (0, 1, 2, 3):
+                self.wait_color(editor, (150, 100), colors[k], f"frame {k}")
+                editor.key("period")
+            for k in (3, 2):
+                editor.key("comma")
+                self.wait_color(editor, (150, 100), colors[k], f"frame {k} again")
+            editor.key("space")
+            editor.wait(lambda s: s["runs"] and s["time"] > 1.5, "the film plays")
+            editor.key("space")
+            state = editor.wait(lambda s: not s["runs"], "the film stops")
+            frame = round(state["time"] * 4)
+            self.wait_color(editor, (150, 100), colors[frame], f"frame {frame}, where it stopped")
+            # A trim is an undo step.
+            self.type_into(editor, "First frame", "2")
+            self.wait_color(editor, (150, 100), colors[frame + 2], "two frames later")
+            editor.press_item("Loop")
+            path = os.path.join(self.work, "film.json")
+            self.save_as(editor, path)
+            clip = load(path)["image"]["clip"]
+            self.assertEqual((clip["first"], clip["after"], clip["frames"]), (2, "loop", len(colors)))
+            editor.key("ctrl+z")
+            editor.key("ctrl+z")
+            self.wait_color(editor, (150, 100), colors[frame], "the whole film again")
+
+    def test_numbered_pictures_play_as_a_film(self):
+        for k, color in enumerate([RED, GREEN, BLUE]):
+            self.plain(f"step-{k + 7:03d}.png", color)
+        with Editor(PROGRAM, [os.path.join(self.work, "step-008.png")], size="1400x1200") as editor:
+            self.wait_color(editor, (150, 100), GREEN, "the picture alone")
+            editor.press_item("Play them as a film")
+            editor.wait(lambda s: s["shows_time"], "the timeline")
+            for k, color in enumerate([RED, GREEN, BLUE]):
+                self.wait_color(editor, (150, 100), color, f"frame {k}")
+                editor.key("period")
+            for _ in range(4):
+                editor.key("comma")
+            editor.key("ctrl+z")
+            self.wait_color(editor, (150, 100), GREEN, "the picture alone again")
+
     def test_pictures_come_from_the_clipboard_and_go_there(self):
         there, copied = os.path.join(self.work, "there.png"), os.path.join(self.work, "copied.png")
         self.plain("there.png", GREEN, (120, 200))

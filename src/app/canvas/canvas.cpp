@@ -70,7 +70,9 @@ LayerPainter& Canvas::painter_of(const Layer& layer) {
 }
 
 void Canvas::update_picture(Workspace& workspace, const Layer& layer) {
-  const int factor = painter_of(layer).update_picture(workspace.document.pictures().shared(layer));
+  const Pictures& pictures = workspace.document.pictures();
+  const bool moves = pictures.footage(layer) != nullptr;
+  const int factor = painter_of(layer).update_picture(pictures.shared(layer), moves);
   if (painter_of(layer).is_uploading()) wake_();
   if (factor > 1)
     workspace.messages.say(

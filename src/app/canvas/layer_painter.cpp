@@ -16,7 +16,7 @@ constexpr size_t kBytesPerFrame = 8 << 20;
 
 }  // namespace
 
-int LayerPainter::update_picture(std::shared_ptr<const Image> picture) {
+int LayerPainter::update_picture(std::shared_ptr<const Image> picture, bool moves) {
   if (picture == picture_) {
     if (uploading_ && !renderer_.upload_more(kBytesPerFrame)) {
       uploading_ = false;
@@ -28,7 +28,9 @@ int LayerPainter::update_picture(std::shared_ptr<const Image> picture) {
   preparing_.reset();
   uploading_ = false;
   if (!picture_) return renderer_.set_picture(0, 0, nullptr);
-  if (static_cast<size_t>(picture_->width) * static_cast<size_t>(picture_->height) <= kSmallPixels)
+  const size_t pixels =
+      static_cast<size_t>(picture_->width) * static_cast<size_t>(picture_->height);
+  if (moves || pixels <= kSmallPixels)
     return renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data());
   ready_ = std::make_shared<TextureLevels>();
   preparing_ = std::make_unique<Job>(

@@ -19,9 +19,10 @@ class LayerPainter {
   explicit LayerPainter(std::function<void()> wake) : wake_(std::move(wake)) {}
 
   /// Sets the current picture, or null. Large pictures are prepared on another thread and appear
-  /// gradually. Once per picture, when the factor by which it was reduced for this driver is known,
-  /// returns that factor (1: not reduced). All other calls return 0.
-  int update_picture(std::shared_ptr<const Image> picture);
+  /// gradually, unless they are frames of a film (`moves`). Once per picture, when the factor by
+  /// which it was reduced for this driver is known, returns that factor (1: not reduced). All other
+  /// calls return 0.
+  int update_picture(std::shared_ptr<const Image> picture, bool moves = false);
   /// Allocates GPU memory for a prepared picture, which can take as long as a frame. Returns
   /// whether a picture was prepared.
   bool allocate_texture();

@@ -394,6 +394,11 @@ void ExportDialog::draw_frames() {
     settings_.last = std::clamp(static_cast<int>(std::lround(to)), settings_.first, last);
   }
   if (settings_.kind != ExportKind::film) return;
+  const Document& document = workspace_.document;
+  if (film_format_of(settings_.path).needs_ffmpeg &&
+      !sound_of(document.scene(), document.pictures(), 0).empty() &&
+      switch_row("Sound", settings_.keeps_sound, "Keep the sound of films that are pictures"))
+    settings_.keeps_sound = !settings_.keeps_sound;
   if (switch_row("Loop", settings_.loops)) settings_.loops = !settings_.loops;
   if (settings_.loops && frames() < settings_.last - settings_.first + 1) {
     ImGui::SameLine(0, px(12));

@@ -25,7 +25,9 @@ std::string size_text(int width, int height) {
 
 std::string exported_film(const ExportWork& work, Job::Progress& progress) {
   const ExportSettings& settings = work.settings;
-  const FilmOptions film{work.options, settings.first, settings.last, settings.loops};
+  const FilmOptions film{work.options, settings.first, settings.last, settings.loops,
+                         settings.keeps_sound && film_format_of(settings.path).needs_ffmpeg &&
+                             !sound_of(work.scene, work.pictures, 0).empty()};
   const auto written = write_film(
       settings.path, work.scene, work.pictures.of(work.scene.layer()), film,
       [&](int done, int all) { return progress.at(done, all); }, work.pictures);

@@ -19,6 +19,7 @@ struct ExportSettings {
   std::optional<Background> background;  ///< none: the scene's
   int first = 0, last = 0;               ///< frames
   bool loops = true;
+  bool keeps_sound = true;  ///< if the format can have sound, and there is any
   bool crops_to_filled = false;
   std::optional<size_t> vertices;  ///< of each layer's mesh; none: its own
   std::optional<double> rate;      ///< frames of meshes per second; none: the scene's

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/look/controls.h"
+#include "app/panels/film_panel.h"
 #include "app/panels/layer_panel.h"
 #include "app/panels/map_panel.h"
 #include "app/panels/method_panel.h"
@@ -132,6 +133,8 @@ PanelAnswer draw_inspector(Workspace& workspace, const InspectorParts& parts,
   section(
       "layers", "Layers", {}, true, [&] { parts.layers.draw(workspace, parts.thumbnails); },
       parts.layers.is_renaming());
+  if (parts.film.has_film(workspace))
+    section("film", "Film", {}, true, [&] { parts.film.draw(workspace); });
   section("method", "Method", {}, true, [&] {
     const PanelAnswer method = method_section(workspace, parts.preferences);
     answer.preferences_changed = answer.preferences_changed || method.preferences_changed;

@@ -104,7 +104,7 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
     list.AddRect(at, at + ImVec2(width, height), faded(c.accent), px(6), 0, px(2));
   const float alpha = state.visible ? 1 : 0.4f;
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * alpha);
-  draw_thumbnail(list, thumbnails.of_picture(workspace.document.pictures().shared(state)),
+  draw_thumbnail(list, thumbnails.of_picture(workspace.document.pictures().still(state)),
                  at + ImVec2(indent + px(8), (height - side) / 2), side, px(4));
   if (indent > 0) draw_clip_arrow(list, at + ImVec2(px(14), height / 2), faded(c.muted));
   ImGui::PopStyleVar();

@@ -12,6 +12,7 @@
 #include "app/look/surfaces.h"
 #include "app/panels/panels.h"
 #include "edit/actions/icons.h"
+#include "scene/clips.h"
 #include "scene/layers.h"
 
 namespace holomorph {
@@ -180,17 +181,36 @@ void TimelineRows::draw_name(Workspace& workspace, const Row& row, ImVec2 at, fl
   }
   name_item("Open: " + title_of_layer(scene, row.layer));
   ImGui::EndDisabled();
-  draw_thumbnail(list, thumbnails.of_picture(workspace.document.pictures().shared(layer)),
+  draw_thumbnail(list, thumbnails.of_picture(workspace.document.pictures().still(layer)),
                  at + ImVec2(px(34), (height - px(24)) / 2), px(24), px(4));
   draw_text(list, Type::body, at + ImVec2(px(66), px(9)), layer.visible ? c.text : c.muted,
             shortened_text(title_of_layer(scene, row.layer), width - px(74)));
+}
+
+/// Draws a bar where the layer's film plays, lighter where it repeats.
+void TimelineRows::draw_clip(const Clip& clip, float middle) const {
+  const ThemeColors& c = theme_colors();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float half = px(11), end = ruler_.right() + px(kMargin);
+  const double after = end_of(clip) + 1 / clip.frames_per_second;
+  const ImVec2 from(ruler_.x(clip.start), middle - half), to(ruler_.x(after), middle + half);
+  const auto tint = [&](float alpha) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    ImVec4 color = ImGui::ColorConvertU32ToFloat4(c.accent);
+    color.w *= alpha * style.Alpha;
+    return ImGui::ColorConvertFloat4ToU32(color);
+  };
+  if (clip.loops) list.AddRectFilled({ruler_.left(), from.y}, {end, to.y}, tint(0.15f), px(4));
+  list.AddRectFilled(from, to, tint(0.4f), px(4));
 }
 
 void TimelineRows::draw_keys(const Workspace& workspace, const Row& row, float middle) const {
   const ThemeColors& c = theme_colors();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Deformation& deformation = deformation_of(workspace, row.layer);
-  const int id = workspace.document.scene().layers[row.layer]->id;
+  const Layer& layer = *workspace.document.scene().layers[row.layer];
+  const int id = layer.id;
+  if (const Clip* clip = clip_of(layer); clip && row.part.empty()) draw_clip(*clip, middle);
   const KeySelection& chosen = workspace.shown.timeline.keys;
   for (size_t i = 0; i + 1 < row.times.size(); ++i) {
     const bool both =

@@ -35,6 +35,7 @@ class TimelineRows {
   void draw_ruler(Workspace& workspace, float names);
   void draw_name(Workspace& workspace, const Row& row, ImVec2 at, float width,
                  Thumbnails& thumbnails);
+  void draw_clip(const Clip& clip, float middle) const;
   void draw_keys(const Workspace& workspace, const Row& row, float middle) const;
   void draw_selection_box(const Workspace& workspace);
   void draw_menu(Workspace& workspace);

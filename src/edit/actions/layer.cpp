@@ -1,6 +1,8 @@
 // The Layer menu: the stack of pictures, and the background behind it.
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
+#include "scene/formats/file_kinds.h"
+#include "scene/formats/film_frames.h"
 
 namespace holomorph {
 namespace {
@@ -41,6 +43,13 @@ void detach_layer(Workspace& w) {
   if (!w.require_open_layer() || !w.require_placements()) return;
   const Scene& scene = w.document.scene();
   w.commit_layers("Detach layer", detached(scene, scene.edited, w.placement(scene.edited)));
+}
+
+/// Whether the picture is one of several with successive numbers, and does not play as a film yet.
+bool is_numbered(const Workspace& w) {
+  const auto& image = w.document.scene().layer().image;
+  return image && image->entry.empty() && !image->clip &&
+         is_named_as(image->file, FileContent::picture) && has_numbered_neighbor(image->file);
 }
 
 void show_layer(Workspace& w) {
@@ -96,6 +105,13 @@ std::vector<Action> layer_actions() {
           .hint = "Keep the cage, pins and keyframes",
           .enabled = has_content,
           .run = ask<Request::replace_picture>,
+      },
+      {
+          .id = "layer.play_numbered",
+          .label = "Play as film",
+          .hint = "Play the pictures with successive numbers in their names as a film",
+          .enabled = is_numbered,
+          .run = ask<Request::play_numbered>,
       },
       {
           .id = "layer.double",

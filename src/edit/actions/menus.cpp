@@ -52,6 +52,7 @@ const std::vector<MenuItem>& menus() {
       {"Layer",
        {{"layer.add"},
         {"layer.replace"},
+        {"layer.play_numbered"},
         {"layer.double"},
         {"layer.rename"},
         {"layer.delete"},

@@ -11,6 +11,9 @@ namespace {
 bool has_keys(const Workspace& w) {
   return has_keyframes(w.document.scene());
 }
+bool has_frames(const Workspace& w) {
+  return has_time(w.document.scene());
+}
 bool has_copied(const Workspace& w) {
   return w.copied && fits(w.shown.deformation(), *w.copied);
 }
@@ -110,7 +113,7 @@ std::vector<Action> time_actions() {
           .label = "Previous frame",
           .icon = icon_named("previous"),
           .keys = {','},
-          .enabled = has_keys,
+          .enabled = has_frames,
           .run = stop_at_frame<-1>,
       },
       {
@@ -118,7 +121,7 @@ std::vector<Action> time_actions() {
           .label = "Next frame",
           .icon = icon_named("next"),
           .keys = {'.'},
-          .enabled = has_keys,
+          .enabled = has_frames,
           .run = stop_at_frame<1>,
       },
       {
@@ -208,9 +211,9 @@ std::vector<Action> time_actions() {
       {
           .id = "time.loop",
           .label = "Loop",
-          .hint = "Start again after the last keyframe",
+          .hint = "Start again after the last keyframe or frame",
           .icon = icon_named("loop"),
-          .enabled = has_cage,
+          .enabled = [](const Workspace& w) { return has_cage(w) || has_frames(w); },
           .run = [](Workspace& w) { w.shown.timeline.loop = !w.shown.timeline.loop; },
           .checked = [](const Workspace& w) { return w.shown.timeline.loop; },
       },

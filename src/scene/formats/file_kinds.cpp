@@ -19,6 +19,11 @@ const std::vector<FileKind>& file_kinds() {
                                          {{".gif"}, FileContent::picture},
                                          {{".bmp"}, FileContent::picture},
                                          {{".tga"}, FileContent::picture},
+                                         {{".mp4", ".m4v"}, FileContent::film},
+                                         {{".mov"}, FileContent::film},
+                                         {{".mkv"}, FileContent::film},
+                                         {{".webm"}, FileContent::film},
+                                         {{".avi"}, FileContent::film},
                                          {{".svg"}, FileContent::path},
                                          {{".obj"}, FileContent::surface},
                                          {{".csv"}, FileContent::points}};

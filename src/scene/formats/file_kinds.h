@@ -13,6 +13,7 @@ namespace holomorph {
 enum class FileContent {
   scene,
   picture,
+  film,     ///< a picture that moves
   path,     ///< a cage, a pose or an outline
   surface,  ///< triangles in space
   points

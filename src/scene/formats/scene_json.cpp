@@ -19,6 +19,29 @@ namespace {
 constexpr int kLayeredVersion = 2, kPlainVersion = 1, kHoleVersion = 3;
 constexpr int kDeepest = 200;  ///< limit on nesting, including unknown keys
 
+constexpr const char* kHold = "hold";
+constexpr const char* kLoop = "loop";
+
+Clip read_clip(const Reader& reader) {
+  reader.object();
+  Clip clip;
+  constexpr int kMostFrames = 1'000'000'000;
+  if (reader.has("frames_per_second"))
+    clip.frames_per_second = reader["frames_per_second"].within(kMinFrameRate, kMaxFrameRate);
+  if (reader.has("frames")) clip.frames = reader["frames"].whole(1, kMostFrames);
+  if (reader.has("first")) clip.first = reader["first"].whole(0, kMostFrames);
+  if (reader.has("last")) clip.last = reader["last"].whole(clip.first, kMostFrames);
+  if (reader.has("start")) clip.start = reader["start"].within(-kMaxTime, kMaxTime);
+  if (reader.has("after")) {
+    const std::string after = reader["after"].text();
+    if (after != kHold && after != kLoop)
+      reader["after"].fail("'" + after + "' is not known; choose hold or loop");
+    clip.loops = after == kLoop;
+  }
+  clip.extra = reader.others({"frames_per_second", "frames", "first", "last", "start", "after"});
+  return clip;
+}
+
 ImageReference read_image(const Reader& reader) {
   reader.object();
   ImageReference image;
@@ -32,7 +55,8 @@ ImageReference read_image(const Reader& reader) {
     image.height = size[1].whole(1, kMaxImageSide);
   }
   if (reader.has("sha256")) image.sha256 = reader["sha256"].text();
-  image.extra = reader.others({"file", "entry", "size", "sha256"});
+  if (reader.has("clip")) image.clip = read_clip(reader["clip"]);
+  image.extra = reader.others({"file", "entry", "size", "sha256", "clip"});
   return image;
 }
 
@@ -237,12 +261,25 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
 
 namespace {
 
+Json clip_json(const Clip& clip) {
+  Json item;
+  item["frames_per_second"] = clip.frames_per_second;
+  if (clip.frames > 0) item["frames"] = clip.frames;
+  if (clip.first > 0) item["first"] = clip.first;
+  if (clip.last) item["last"] = *clip.last;
+  if (clip.start != 0) item["start"] = clip.start;
+  if (clip.loops) item["after"] = kLoop;
+  add_extra(item, clip.extra);
+  return item;
+}
+
 void write_image(const ImageReference& reference, Json& document) {
   Json image;
   image["file"] = reference.file;
   if (!reference.entry.empty()) image["entry"] = reference.entry;
   if (reference.width > 0) image["size"] = Json::array({reference.width, reference.height});
   if (!reference.sha256.empty()) image["sha256"] = reference.sha256;
+  if (reference.clip) image["clip"] = clip_json(*reference.clip);
   add_extra(image, reference.extra);
   document["image"] = std::move(image);
 }

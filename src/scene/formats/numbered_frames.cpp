@@ -1,0 +1,104 @@
+// Pictures whose names end with successive numbers, as animation programs write them.
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <optional>
+
+#include "core/error.h"
+#include "scene/budget.h"
+#include "scene/formats/film_frames.h"
+
+namespace holomorph {
+namespace {
+
+/// A file name that ends with a number, such as walk-0007.png.
+struct NumberedName {
+  Path folder;
+  std::string before, after;  ///< the texts around the number
+  int digits = 0;             ///< numbers with fewer digits begin with zeros
+  long number = 0;
+
+  Path with(long other) const {
+    char text[32];
+    std::snprintf(text, sizeof text, "%0*ld", digits, other);
+    return folder / (before + text + after);
+  }
+};
+
+std::optional<NumberedName> numbered_name(const Path& file) {
+  constexpr size_t kMostDigits = 9;
+  const std::string stem = file.stem().string();
+  size_t start = stem.size();
+  while (start > 0 && std::isdigit(static_cast<unsigned char>(stem[start - 1])) &&
+         stem.size() - start < kMostDigits)
+    --start;
+  if (start == stem.size()) return {};
+  const std::string digits = stem.substr(start);
+  // Without a leading zero, numbers may have any number of digits.
+  return NumberedName{file.parent_path(), stem.substr(0, start), file.extension().string(),
+                      digits[0] == '0' ? static_cast<int>(digits.size()) : 1, std::stol(digits)};
+}
+
+class NumberedPictures final : public FrameReader {
+ public:
+  explicit NumberedPictures(const Path& first) : files_(numbered_pictures(first)) {
+    if (files_.empty())
+      throw Error(ErrorKind::bad_input,
+                  first.string() +
+                      ": the name does not end with a number, so the file is not one "
+                      "of several frames");
+  }
+
+  FilmInfo info() const override { return {static_cast<int>(files_.size())}; }
+
+  Image read(int frame) override {
+    const Path& file = files_[static_cast<size_t>(frame)];
+    Image image = decode_image(read_file(file), file.string());
+    if (width_ == 0) width_ = image.width, height_ = image.height;
+    if (image.width != width_ || image.height != height_)
+      throw Error(ErrorKind::bad_input,
+                  file.string() + ": this frame has " + std::to_string(image.width) + " x " +
+                      std::to_string(image.height) + " pixels, and the others " +
+                      std::to_string(width_) + " x " + std::to_string(height_));
+    return image;
+  }
+
+ private:
+  std::vector<Path> files_;
+  int width_ = 0, height_ = 0;  ///< of the frame that was read first
+};
+
+}  // namespace
+
+std::vector<Path> numbered_pictures(const Path& first) {
+  std::vector<Path> files;
+  const std::optional<NumberedName> name = numbered_name(first);
+  if (!name || !is_file(first)) return files;
+  for (Path file = first; is_file(file);
+       file = name->with(name->number + static_cast<long>(files.size()))) {
+    files.push_back(file);
+    check_budget(&Budget::frames, static_cast<double>(files.size()),
+                 first.string() + ": with the pictures after it, this film has");
+  }
+  return files;
+}
+
+bool has_numbered_neighbor(const Path& file) {
+  const std::optional<NumberedName> name = numbered_name(file);
+  return name && (is_file(name->with(name->number + 1)) ||
+                  (name->number > 0 && is_file(name->with(name->number - 1))));
+}
+
+Path first_numbered_picture(const Path& any) {
+  const std::optional<NumberedName> name = numbered_name(any);
+  if (!name) return any;
+  long first = name->number;
+  while (first > 0 && is_file(name->with(first - 1))) --first;
+  return first == name->number ? any : name->with(first);
+}
+
+std::unique_ptr<FrameReader> open_numbered_pictures(const Path& first) {
+  return std::make_unique<NumberedPictures>(first);
+}
+
+}  // namespace holomorph

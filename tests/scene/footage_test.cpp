@@ -1,0 +1,201 @@
+// The time of films, and the frames that are kept of them.
+#include "scene/footage.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <thread>
+
+#include "core/error.h"
+#include "scene/clips.h"
+#include "scene/formats/scene_json.h"
+#include "scene/keyframes.h"
+#include "support/seeds.h"
+
+using namespace holomorph;
+
+namespace {
+
+/// Frames whose first byte is their number.
+class CountingReader final : public FrameReader {
+ public:
+  CountingReader(int frames, int side) : frames_(frames), side_(side) {}
+
+  FilmInfo info() const override { return {frames_, 25}; }
+  Image read(int frame) override {
+    ++reads;
+    if (frame == fails_at) throw Error(ErrorKind::bad_input, "frame cannot be decoded");
+    Image image(side_, side_);
+    image.pixels[0] = static_cast<std::uint8_t>(frame);
+    return image;
+  }
+
+  std::atomic<int> reads = 0;
+  int fails_at = -1;
+
+ private:
+  int frames_, side_;
+};
+
+int number_of(const std::shared_ptr<const Image>& image) {
+  return image ? image->pixels[0] : -1;
+}
+
+/// Asks for a frame until it is there, for at most ten seconds.
+bool appears(Footage& footage, int number) {
+  for (int i = 0; i < 1000; ++i) {
+    if (number_of(footage.frame_now(number, [] {})) == number) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("The frame at a time is the last one that has begun") {
+  for (const unsigned seed : seeds_of("clips", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    const auto uniform = [&](double from, double to) {
+      return std::uniform_real_distribution(from, to)(random);
+    };
+    for (int k = 0; k < 200; ++k) {
+      Clip clip;
+      clip.frames = 1 + static_cast<int>(random() % 300);
+      clip.first = static_cast<int>(random()) % clip.frames;
+      clip.first = std::abs(clip.first);
+      if (random() % 2 == 0)
+        clip.last = clip.first +
+                    static_cast<int>(random() % static_cast<unsigned>(clip.frames - clip.first));
+      clip.frames_per_second = uniform(1, 240);
+      clip.start = uniform(-20, 20);
+      clip.loops = random() % 2 == 0;
+      const int last = clip.last.value_or(clip.frames - 1), count = last - clip.first + 1;
+      const double time = uniform(-30, 30);
+      // By its definition, from the times at which frames begin.
+      const auto begins = [&](double i) { return clip.start + i / clip.frames_per_second; };
+      double i = std::round((time - clip.start) * clip.frames_per_second) + 2;
+      while (begins(i) > time) --i;
+      if (std::abs(begins(i + 1) - time) < 1e-6 || std::abs(begins(i) - time) < 1e-6) continue;
+      int expected = static_cast<int>(std::clamp(i, 0.0, count - 1.0));
+      if (clip.loops) expected = ((static_cast<int>(i) % count) + count) % count;
+      INFO("seed " << seed << ", clip " << k);
+      CHECK(frame_at(clip, time) == clip.first + expected);
+    }
+  }
+}
+
+TEST_CASE("Frame i of a film with the scene's rate is shown in frame i of the scene") {
+  for (const double rate : {12.0, 24.0, 25.0, 29.97, 30000.0 / 1001, 60.0}) {
+    Clip clip{rate, 5000};
+    for (int i = 0; i < 5000; ++i) REQUIRE(frame_at(clip, i / rate) == i);
+  }
+}
+
+TEST_CASE("Films lengthen a scene up to the time of their last frame") {
+  Layer layer;
+  layer.image = ImageReference{"film.mp4"};
+  layer.image->clip = Clip{25, 101, 20, {}, 1.5};
+  const Scene scene = scene_of(layer);
+  CHECK(has_time(scene));
+  CHECK(plays(scene));
+  CHECK(length_of(scene) == Approx(1.5 + 80 / 25.0));
+  layer.image->clip = Clip{25, 1};
+  CHECK_FALSE(plays(scene_of(layer)));
+}
+
+TEST_CASE("A clip is limited to the frames of its film") {
+  const Clip clip = fitted(Clip{25, 100, 50, 80}, 60);
+  CHECK(clip.frames == 60);
+  CHECK(clip.first == 50);
+  CHECK(last_played_frame(clip) == 59);
+  CHECK(last_played_frame(fitted(clip, 10)) == 9);
+  CHECK(fitted(clip, 10).first == 9);
+}
+
+TEST_CASE("Scene files keep clips, and what they do not know of them") {
+  Layer layer;
+  layer.image = ImageReference{"film.mp4"};
+  layer.image->clip = Clip{23.976, 240, 3, 200, -1.25, true, R"({"later":[1]})"};
+  const Scene scene = scene_of(layer);
+  CHECK(scene_from_json(json_of(scene), "scene") == scene);
+  layer.image->clip = Clip{};
+  CHECK(scene_from_json(json_of(scene_of(layer)), "scene") == scene_of(layer));
+}
+
+TEST_CASE("A frame that is wanted now follows soon, and wakes the caller") {
+  Footage footage(std::make_unique<CountingReader>(100, 4));
+  std::atomic<int> woken = 0;
+  CHECK(footage.frame_now(7, [&] { ++woken; }) == nullptr);
+  CHECK(appears(footage, 7));
+  for (int i = 0; i < 1000 && woken == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  CHECK(woken > 0);
+  // While a frame is missing, one shortly before it stands in for it.
+  CHECK(number_of(footage.frame(50)) == 50);
+  CHECK(number_of(footage.frame_now(49, [] {})) != 50);
+  CHECK(appears(footage, 99));
+  CHECK(number_of(footage.frame(1000)) == 99);
+}
+
+TEST_CASE("Frames are decoded once as long as they are kept") {
+  auto reader = std::make_unique<CountingReader>(100, 4);
+  const CountingReader& counter = *reader;
+  Footage footage(std::move(reader));
+  for (int round = 0; round < 3; ++round)
+    for (int i = 0; i < 20; ++i) CHECK(number_of(footage.frame(i)) == i);
+  CHECK(counter.reads == 20);
+}
+
+TEST_CASE("Only about 256 MB of frames are kept") {
+  constexpr int kSide = 2048;  // 16 MiB for each frame
+  auto reader = std::make_unique<CountingReader>(40, kSide);
+  const CountingReader& counter = *reader;
+  Footage footage(std::move(reader));
+  std::vector<std::weak_ptr<const Image>> all;
+  for (int i = 0; i < 40; ++i) all.push_back(footage.frame(i));
+  CHECK(std::ranges::count_if(all, [](const auto& frame) { return !frame.expired(); }) == 16);
+  CHECK(number_of(footage.frame(0)) == 0);
+  CHECK(counter.reads == 41);
+}
+
+TEST_CASE("A frame that cannot be decoded is reported once and not tried again") {
+  auto reader = std::make_unique<CountingReader>(100, 4);
+  reader->fails_at = 30;
+  const CountingReader& counter = *reader;
+  Footage footage(std::move(reader));
+  CHECK_THROWS_AS(footage.frame(30), Error);
+  std::optional<Error> error;
+  for (int i = 0; i < 1000 && !error; ++i) {
+    footage.frame_now(30, [] {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    error = footage.take_error();
+  }
+  REQUIRE(error);
+  const int reads = counter.reads;
+  for (int i = 0; i < 20; ++i) {
+    footage.frame_now(30, [] {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  CHECK(counter.reads <= reads + 7);  // frames ahead
+  CHECK_FALSE(footage.take_error());
+  CHECK(appears(footage, 31));
+}
+
+TEST_CASE("Several threads may ask for frames") {
+  Footage footage(std::make_unique<CountingReader>(200, 16));
+  std::vector<std::thread> threads;
+  std::atomic<int> wrong = 0;
+  for (unsigned t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      std::mt19937 random(t);
+      for (int i = 0; i < 300; ++i) {
+        const int number = static_cast<int>(random() % 200);
+        if (t % 2 == 0 && number_of(footage.frame(number)) != number) ++wrong;
+        if (t % 2 == 1) footage.frame_now(number, [] {});
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(wrong == 0);
+}
