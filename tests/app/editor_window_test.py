@@ -315,7 +315,7 @@ class EditorWindowTest(WindowCase):
             # A trim is an undo step.
             self.type_into(editor, "First frame", "2")
             self.wait_color(editor, (150, 100), colors[frame + 2], "two frames later")
-            editor.press_item("Loop")
+            editor.press_item("Repeat")
             path = os.path.join(self.work, "film.json")
             self.save_as(editor, path)
             clip = load(path)["image"]["clip"]

@@ -93,7 +93,7 @@ void FilmPanel::draw(Workspace& workspace) {
             "How many of its frames are shown in a second"),
         [&](Clip& it) { it.frames_per_second = std::round(1000 * rate) / 1000; });
   const Clip now = *clip_of(workspace.document.scene().layer());
-  if (switch_row("Loop", now.loops,
+  if (switch_row("Repeat", now.loops,
                  "Start again after the last frame. If this is off, the last frame stays.")) {
     Clip looped = now;
     looped.loops = !now.loops;
