@@ -297,7 +297,7 @@ class EditorWindowTest(WindowCase):
 
     def test_a_film_plays_as_a_picture(self):
         colors = [RED, GREEN, BLUE] * 8
-        with Editor(PROGRAM, [self.film(colors, 4)], size="1400x1200") as editor:
+        with Editor(PROGRAM, [self.film(colors, 4)]) as editor:
             state = editor.wait(lambda s: s["pictured"] and s["shows_time"], "the film and its timeline")
             self.assertFalse(state["runs"])
             for k in (0, 1, 2, 3):
@@ -315,6 +315,9 @@ class EditorWindowTest(WindowCase):
             # A trim is an undo step.
             self.type_into(editor, "First frame", "2")
             self.wait_color(editor, (150, 100), colors[frame + 2], "two frames later")
+            editor.xdotool("mousemove", *editor.item("First frame"))
+            for _ in range(10):
+                editor.xdotool("click", 5)  # the wheel
             editor.press_item("Repeat")
             path = os.path.join(self.work, "film.json")
             self.save_as(editor, path)
@@ -327,7 +330,7 @@ class EditorWindowTest(WindowCase):
     def test_numbered_pictures_play_as_a_film(self):
         for k, color in enumerate([RED, GREEN, BLUE]):
             self.plain(f"step-{k + 7:03d}.png", color)
-        with Editor(PROGRAM, [os.path.join(self.work, "step-008.png")], size="1400x1200") as editor:
+        with Editor(PROGRAM, [os.path.join(self.work, "step-008.png")]) as editor:
             self.wait_color(editor, (150, 100), GREEN, "the picture alone")
             editor.press_item("Play them as a film")
             editor.wait(lambda s: s["shows_time"], "the timeline")

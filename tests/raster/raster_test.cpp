@@ -376,7 +376,7 @@ TEST_CASE("The faint surroundings of a cut-out follow it") {
       pixel[3] = solid ? 255 : static_cast<std::uint8_t>(20 + column);
     }
   Layer layer;
-  layer.image = ImageReference{"picture.png"};
+  layer.image = reference_in("picture.png");
   layer.deformation = with_cage({}, Points{{18, 8}, {42, 8}, {42, 32}, {18, 32}});
   Scene scene = scene_of(layer);
   CHECK(picture_of(scene, &image).image == image);

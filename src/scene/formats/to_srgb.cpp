@@ -6,15 +6,17 @@
 #include <cmath>
 
 namespace holomorph {
+
+struct DeleteTransform {
+  void operator()(void* transform) const { cmsDeleteTransform(transform); }
+};
+
 namespace {
 
 struct CloseProfile {
   void operator()(void* profile) const { cmsCloseProfile(profile); }
 };
 using Profile = std::unique_ptr<void, CloseProfile>;
-struct DeleteTransform {
-  void operator()(void* transform) const { cmsDeleteTransform(transform); }
-};
 using Conversion = std::unique_ptr<void, DeleteTransform>;
 
 constexpr size_t kLargestProfile = 8 << 20;
