@@ -16,8 +16,8 @@ FloatBits bits_of(const ExportCommand& command) {
   return command.half ? FloatBits::half : FloatBits::single;
 }
 
-std::string size_text(const StMap& map) {
-  return std::to_string(map.width) + " x " + std::to_string(map.height) + " pixels";
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
 void export_one(const LoadedScene& loaded, const ExportCommand& command, const Image& picture,
@@ -30,7 +30,7 @@ void export_one(const LoadedScene& loaded, const ExportCommand& command, const I
     StMap made = st_map_of(map, picture, options, [&](int done, int all) {
       progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
     });
-    size = size_text(made);
+    size = size_text(made.width, made.height);
     bytes = st_map_bytes(std::move(made), command.out, bits_of(command));
   }
   write_result(command.out, bytes);
@@ -38,7 +38,7 @@ void export_one(const LoadedScene& loaded, const ExportCommand& command, const I
 }
 
 void export_frames(const LoadedScene& loaded, const ExportCommand& command, const Image& picture,
-                   StMapOptions options) {
+                   const StMapOptions& options) {
   if (is_standard(command.out))
     throw Error(ErrorKind::bad_input,
                 "each frame is a file of its own; give a file name with --out");
@@ -46,22 +46,18 @@ void export_frames(const LoadedScene& loaded, const ExportCommand& command, cons
   for (int i = range.first; i <= range.last; ++i)
     check_out(numbered(command.out, i), command.force, command.scene, loaded);
   const DeferredStop tidy;
-  const size_t count = static_cast<size_t>(range.last - range.first + 1);
   std::string size;
   {
     Progress progress("export", "frame");
-    TimedMap map(loaded.scene);
-    for (size_t k = 0; k < count; ++k) {
-      progress.step(k, count);
-      const int frame = range.first + static_cast<int>(k);
-      options.time = frame / loaded.scene.animation.frames_per_second;
-      StMap made = st_map_of(map, picture, options, [](int, int) { stop_if_interrupted(); });
-      size = size_text(made);
-      write_file(numbered(command.out, frame),
-                 st_map_bytes(std::move(made), command.out, bits_of(command)));
-    }
+    const auto step = [&](int done, int all) {
+      progress.step(static_cast<size_t>(done), static_cast<size_t>(all));
+      return true;
+    };
+    const auto written = write_st_maps(loaded.scene, picture, options, range.first, range.last,
+                                       command.out, bits_of(command), step);
+    size = size_text(written->width, written->height);
   }
-  std::fprintf(stderr, "%zu ST-maps of %s: %s to %s\n", count, size.c_str(),
+  std::fprintf(stderr, "%d ST-maps of %s: %s to %s\n", range.last - range.first + 1, size.c_str(),
                numbered(command.out, range.first).c_str(),
                numbered(command.out, range.last).c_str());
 }

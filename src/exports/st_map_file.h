@@ -14,4 +14,16 @@ bool is_exr_name(const Path& out);
 /// precision, and finite values everywhere.
 std::string st_map_bytes(StMap map, const Path& out, FloatBits bits);
 
+/// The size of ST-maps that were written.
+struct StMapSize {
+  int width = 0, height = 0;
+};
+/// Writes the ST-maps of frames `first` to `last` to files named by numbered(). `progress` is
+/// called between steps with the number of finished frames and of all frames. If it returns false,
+/// the rest is left out and the result is none. Throws Error.
+std::optional<StMapSize> write_st_maps(const Scene& scene, const Image& picture,
+                                       StMapOptions options, int first, int last, const Path& out,
+                                       FloatBits bits,
+                                       const std::function<bool(int done, int all)>& progress);
+
 }  // namespace holomorph

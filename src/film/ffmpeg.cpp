@@ -23,17 +23,28 @@ Path writable_file(const Path& out, std::optional<NewFolder>& folder) {
   return folder.emplace(std::filesystem::temp_directory_path() / "film").path() / "film";
 }
 
-/// The words of a command that reads raw frames and writes to the passed descriptor.
+/// The words of a command that reads raw frames and writes to the passed descriptor. Without
+/// -xerror, ffmpeg reports success if only the end of the file could not be written.
 std::vector<std::string> command_of(const FilmShape& shape, const std::vector<std::string>& codec) {
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.6g", shape.frames_per_second);
-  std::vector<std::string> words{
-      "ffmpeg",     "-nostdin",    "-hide_banner",
-      "-v",         "error",       "-y",
-      "-f",         "rawvideo",    "-pixel_format",
-      "rgba",       "-video_size", std::to_string(shape.width) + "x" + std::to_string(shape.height),
-      "-framerate", rate,          "-i",
-      "pipe:0"};
+  std::vector<std::string> words{"ffmpeg",
+                                 "-nostdin",
+                                 "-xerror",
+                                 "-hide_banner",
+                                 "-v",
+                                 "error",
+                                 "-y",
+                                 "-f",
+                                 "rawvideo",
+                                 "-pixel_format",
+                                 "rgba",
+                                 "-video_size",
+                                 std::to_string(shape.width) + "x" + std::to_string(shape.height),
+                                 "-framerate",
+                                 rate,
+                                 "-i",
+                                 "pipe:0"};
   const SoundArguments sound = sound_arguments(shape.sound, shape.seconds);
   words.insert(words.end(), sound.inputs.begin(), sound.inputs.end());
   words.insert(words.end(), sound.filters.begin(), sound.filters.end());

@@ -307,7 +307,8 @@ FloatImage float_image_of(StMap map) {
   FloatImage image{map.width, map.height, map.overscan, {}};
   image.pixels.reserve(4 * map.coverage.size());
   for (size_t i = 0; i < map.coverage.size(); ++i)
-    image.pixels.insert(image.pixels.end(), {map.st[2 * i], map.st[2 * i + 1], 0, map.coverage[i]});
+    image.pixels.insert(image.pixels.end(),
+                        {map.st[2 * i], map.st[2 * i + 1], map.coverage[i], map.coverage[i]});
   return image;
 }
 

@@ -52,8 +52,8 @@ StMap st_map_of(
 /// finite and filters near edges find no gaps. Cost: about 100 ns per pixel.
 void extend(StMap& map);
 
-/// The usual order of channels in compositing programs: s is red, t is green, coverage is alpha,
-/// and blue is 0.
+/// The usual order of channels in compositing programs: s is red, t is green, coverage is alpha.
+/// Blue is the coverage, too, because Blender's node Map UV takes it from there.
 FloatImage float_image_of(StMap map);
 
 /// Throws Error if the picture is empty, the scale is not above 0, the overscan is negative, or the

@@ -22,6 +22,7 @@ from case import PROGRAM, SOURCE, Case, run
 SEED = int(os.environ.get("HOLOMORPH_SEED", random.SystemRandom().randrange(10**6)))
 FISH = os.path.join(SOURCE, "assets/fish.json")
 FERN = os.path.join(SOURCE, "assets/fern.json")
+TIGER = os.path.join(SOURCE, "assets/tiger.json")  # on a surface
 FFMPEG = """#!/bin/sh
 for word in "$@"; do last=$word; done
 /usr/bin/cat > "${last#file:}"
@@ -218,6 +219,27 @@ class Files(Case):
                 self.assertEqual(os.listdir(small), [])
         finally:
             subprocess.run(["umount", small], check=True)
+
+    def test_a_file_that_cannot_be_finished_leaves_nothing(self):
+        """Every format, on a disk on which files cannot grow beyond 500 bytes."""
+        def small():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # writing fails instead of ending the program
+            resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))
+        table = self.good("formats").stdout
+        formats = re.findall(r"^(\S+) ", table[table.index("--format"):], re.M)[1:]
+        self.assertGreater(len(formats), 15)
+        for name in formats:
+            with self.subTest(format=name):
+                folder = self.path("small-" + name)
+                os.mkdir(folder)
+                suffix = {"stmap": "exr", "unwarp-map": "npy", "unwarp": "png", "textured": "obj", "godot": "tscn",
+                          "spine": "json"}.get(name, name)
+                scene = TIGER if name == "textured" else FERN
+                many = ["--frames", "0..3"] if "--frames" in table[table.index("\n" + name + " "):].split("\n")[1] else []
+                scale = ["--scale", "0.2"] if suffix in ("png", "exr", "gif", "webp", "apng", "mp4", "webm", "psd", "ora") else []
+                self.bad("export", scene, "--format", name, *many, *scale, "--out", os.path.join(folder, "o." + suffix),
+                         says="", status=1, preexec_fn=small, restore_signals=False)
+                self.assertEqual(os.listdir(folder), [])
 
     def test_stopped_commands_end_with_130_and_leave_nothing(self):
         print("seed", SEED)

@@ -134,8 +134,10 @@ std::string ExportDialog::st_map_text() const {
   const auto side = [&](int length) {
     return std::to_string(std::lround(length * settings_.scale) + 2 * settings_.overscan);
   };
-  return side(picture->width) + " \u00d7 " + side(picture->height) + " px" +
-         (workspace_.shown.time_of_layers() ? ", at the current time only" : "");
+  const std::string size = side(picture->width) + " \u00d7 " + side(picture->height) + " px";
+  const size_t count = files().size();
+  if (count > 1) return std::to_string(count) + " files, " + size;
+  return size + (workspace_.shown.time_of_layers() ? ", at the current time only" : "");
 }
 
 std::string ExportDialog::result_text() const {
@@ -177,8 +179,14 @@ std::string ExportDialog::result_text() const {
 
 std::vector<Path> ExportDialog::files() const {
   if (settings_.kind == ExportKind::film) return files_of_film(settings_.path, frames());
-  if (settings_.kind != ExportKind::meshes) return {settings_.path};
   const Document& document = workspace_.document;
+  if (is_st_map(settings_.kind) && settings_.all_frames && plays(document.scene())) {
+    std::vector<Path> all;
+    for (int i = settings_.first; i <= settings_.last; ++i)
+      all.push_back(numbered(settings_.path, i));
+    return all;
+  }
+  if (settings_.kind != ExportKind::meshes) return {settings_.path};
   return mesh_file_names(document.scene(), document.pictures(),
                          mesh_export_of(settings_, document.scene()));
 }
@@ -436,6 +444,10 @@ void ExportDialog::draw_st_map() {
     settings_.overscan = static_cast<int>(std::lround(overscan));
   row_label("");
   check_box("Half precision", settings_.half);
+  if (!plays(workspace_.document.scene())) return;
+  row_label("");
+  if (check_box("All frames", settings_.all_frames)) confirming_ = false;
+  if (settings_.all_frames) draw_frames();
 }
 
 ExportEstimate::Question ExportDialog::question() const {

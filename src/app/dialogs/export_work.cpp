@@ -73,16 +73,23 @@ std::string exported_meshes(const ExportWork& work, Job::Progress& progress) {
 std::string exported_st_map(const ExportWork& work, Job::Progress& progress) {
   const ExportSettings& settings = work.settings;
   const Image none, *picture = work.pictures.of(work.scene.layer());
+  const StMapOptions options{settings.kind == ExportKind::unwarp_map, settings.scale,
+                             settings.overscan, work.options.time};
+  const FloatBits bits = settings.half ? FloatBits::half : FloatBits::single;
+  if (settings.all_frames && plays(work.scene)) {
+    const auto size = write_st_maps(work.scene, picture ? *picture : none, options, settings.first,
+                                    settings.last, settings.path, bits,
+                                    [&](int done, int all) { return progress.at(done, all); });
+    if (!size) return "";
+    return "Exported " + std::to_string(settings.last - settings.first + 1) + " ST-maps, " +
+           size_text(size->width, size->height) + ".";
+  }
   TimedMap map(work.scene);
-  StMap made = st_map_of(map, picture ? *picture : none,
-                         {settings.kind == ExportKind::unwarp_map, settings.scale,
-                          settings.overscan, work.options.time},
-                         [&](int done, int all) {
-                           if (!progress.at(done, all)) throw Canceled{};
-                         });
+  StMap made = st_map_of(map, picture ? *picture : none, options, [&](int done, int all) {
+    if (!progress.at(done, all)) throw Canceled{};
+  });
   const std::string size = size_text(made.width, made.height);
-  const std::string bytes = st_map_bytes(std::move(made), settings.path,
-                                         settings.half ? FloatBits::half : FloatBits::single);
+  const std::string bytes = st_map_bytes(std::move(made), settings.path, bits);
   if (progress.cancelled()) return "";
   write_file(settings.path, bytes);
   return "Exported " + name_of(work) + ", " + size + ".";

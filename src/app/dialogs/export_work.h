@@ -25,6 +25,7 @@ struct ExportSettings {
   std::optional<double> rate;      ///< frames of meshes per second; none: the scene's
   int overscan = 0;                ///< of ST-maps, pixels
   bool half = false;               ///< ST-maps have half precision
+  bool all_frames = false;         ///< an ST-map for each frame, instead of the shown moment
 };
 
 /// The same export, as the command `export` describes it.

@@ -84,8 +84,11 @@ bool begin_dialog(const std::string& title, const char* id, float width, float h
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({std::round(display.x / 2), std::round(display.y / 2)}, ImGuiCond_Always,
                           {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(px(width), display.x - px(16)),
-                            height > 0 ? std::min(px(height), display.y - px(16)) : 0});
+  const ImVec2 most = display - ImVec2(px(16), px(16));
+  ImGui::SetNextWindowSize(
+      {std::min(px(width), most.x), height > 0 ? std::min(px(height), most.y) : 0});
+  // A dialog that is too high for the window scrolls.
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, most.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(24), px(20)});
   ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, px(10));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(10));
