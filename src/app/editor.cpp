@@ -25,7 +25,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "edit/content.h"
-#include "edit/film_frames.h"
+#include "edit/films.h"
 #include "edit/key_focus.h"
 #include "edit/picking.h"
 #include "edit/tools/layer_drag.h"
@@ -473,7 +473,6 @@ class Editor {
       files_.keep_preferences();
     }
     const InspectorParts parts{layers_,
-                               film_,
                                thumbnails_,
                                preferences_,
                                canvas_.edited().heat_scale(),
@@ -525,7 +524,6 @@ class Editor {
   TimelinePanel timeline_;
   LastPictureView last_picture_{[this] { window_.wake(); }};
   LayerPanel layers_;
-  FilmPanel film_;
   Files files_;
   KeysWindow keys_;
   Palette palette_;

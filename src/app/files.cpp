@@ -156,6 +156,7 @@ void Files::show_withheld() {
   workspace_.messages.complain(jobs_.run("Reading pictures", read, [this, found] {
     for (auto& [reference, picture] : *found)
       workspace_.document.put_picture(reference, std::move(picture));
+    workspace_.document.describe_films();
   }));
 }
 

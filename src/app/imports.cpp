@@ -11,6 +11,7 @@
 #include "edit/tools/tool.h"
 #include "scene/clips.h"
 #include "scene/formats/file_kinds.h"
+#include "scene/formats/numbered_frames.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/svg_path.h"
 

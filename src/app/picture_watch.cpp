@@ -36,7 +36,7 @@ PictureWatch::Changed PictureWatch::changed() {
     const Time now = error ? Time::min() : time;
     const auto [tried, first] = tried_.try_emplace(image.file, now);
     if (!error && tried->second != now)
-      all.emplace_back(reference_in(image.file, image.entry), now);
+      all.emplace_back(image, now);
     else
       tried->second = now;
   }
@@ -72,6 +72,7 @@ void PictureWatch::take_over() {
     }
     workspace_.document.put_picture(reference, std::move(picture));
   }
+  workspace_.document.describe_films();
   if (const auto error = ended->error()) return workspace_.messages.complain(*error);
   workspace_.messages.say(
       Path(read_->front().first.file).filename().string() +

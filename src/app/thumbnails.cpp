@@ -7,6 +7,7 @@
 #include "raster/picture.h"
 #include "scene/document.h"
 #include "scene/formats/file_kinds.h"
+#include "scene/formats/film_frames.h"
 
 namespace holomorph {
 namespace {
@@ -15,8 +16,7 @@ constexpr int kLongestSide = 256;
 constexpr size_t kMostThumbnails = 300, kMostWaiting = 200;
 
 Image thumbnail_of_file(const Path& file) {
-  if (is_named_as(file, FileContent::film))
-    return reduced(*read_picture(reference_in(file)).image, kLongestSide);
+  if (is_named_as(file, FileContent::film)) return reduced(first_frame_of_film(file), kLongestSide);
   if (!is_named_as(file, FileContent::scene))
     return reduced(decode_image(read_file(file), file.filename().string()), kLongestSide);
   const LoadedScene loaded = load_scene(file);

@@ -253,8 +253,9 @@ void run(const ExportCommand& command) {
                              command.rectangle,
                              command.force,
                              command.moments});
-  const LoadedScene loaded = read_scene(command);
+  LoadedScene loaded = read_scene(command);
   if (command.moments.any()) require_keyframes(loaded.scene, command.scene);
+  if (command.moments.time) loaded.pictures.show_time(loaded.scene, *command.moments.time);
   const ExportFormat& known = export_format_named(format);
   if (known.meshes && (known.id != "obj" || command.moments.frames))
     return export_meshes(loaded, command);

@@ -81,7 +81,7 @@ void check_out(const Path& out, bool force, const std::vector<Path>& inputs) {
 
 void check_out(const Path& out, bool force, const Path& scene, const LoadedScene& loaded) {
   if (is_standard(out)) return;
-  check_not_a_source(out, sources_of(loaded.scene, scene));
+  if (path_exists(out)) check_not_a_source(out, sources_of(loaded.scene, scene));
   check_out(out, force, {});
 }
 

@@ -7,7 +7,7 @@ namespace holomorph {
 
 bool advance(Timeline& timeline, const Scene& scene, double now_ms) {
   if (!timeline.playing) return false;
-  const double length = length_of(scene);
+  const double length = length_of(scene), period = period_of(scene);
   if (!plays(scene)) {
     timeline.playing = false;
     return false;
@@ -16,9 +16,9 @@ bool advance(Timeline& timeline, const Scene& scene, double now_ms) {
   timeline.clock_ms = now_ms;
   timeline.active = true;
   timeline.time += step;
-  if (timeline.time <= length) return true;
+  if (timeline.time <= (timeline.loop ? period : length)) return true;
   if (timeline.loop) {
-    timeline.time = std::fmod(timeline.time, length);
+    timeline.time = std::fmod(timeline.time, period);
   } else {
     timeline.time = length;
     timeline.playing = false;

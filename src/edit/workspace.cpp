@@ -327,7 +327,7 @@ void Workspace::go_to(size_t entry) {
 }
 
 const std::vector<Fold>& Workspace::folds() const {
-  return fold_finder_.folds(map(), document.pictures().shared(document.scene().layer()));
+  return fold_finder_.folds(map(), document.pictures().still(document.scene().layer()));
 }
 
 std::optional<Complex> Workspace::overlap() const {

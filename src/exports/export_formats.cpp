@@ -100,7 +100,7 @@ const std::vector<ExportFormat>& export_formats() {
                            .crop = true,
                            .frames = true,
                            .film = true,
-                           .sound = film.needs_ffmpeg});
+                           .sound = film.can_have_sound});
     return formats;
   }();
   return all;

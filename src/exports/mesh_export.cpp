@@ -85,7 +85,7 @@ MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted) 
   options.vertices = wanted.vertices;
   options.edited_only = !format.all_layers;
   if (wanted.time) options.times = {*wanted.time};
-  if (wanted.time || (!wanted.frames && !plays(scene))) {
+  if (wanted.time || (!wanted.frames && !moves(scene))) {
     if (wanted.rate || wanted.keys)
       throw Error(ErrorKind::bad_input,
                   "--rate and --keys are for a motion; the export has a single moment");

@@ -53,7 +53,7 @@ int frames_of_film(const Scene& scene, int first, int last, bool loops) {
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Deformation& deformation = scene.layers[i]->deformation;
     if (const Clip* clip = clip_of(*scene.layers[i]); clip && is_shown(scene, i))
-      if (frame_at(*clip, first / rate) != frame_at(*clip, last / rate)) return all;
+      if (clip_frame_at(*clip, first / rate) != clip_frame_at(*clip, last / rate)) return all;
     const bool shows_motion = scene.layers[i]->visible || carries_others(scene, i);
     if (!shows_motion || playing_keys(deformation).empty()) continue;
     const Keyframe *from = key_shown_at(deformation, first / rate),
@@ -92,7 +92,7 @@ FilmShape shape_of(const Path& out, const Scene& scene, const FilmFrames& frames
   const double rate = scene.animation.frames_per_second;
   FilmShape shape{0, 0, rate, options.loops, frames.count / rate};
   if (!options.keeps_sound) return shape;
-  if (!film_format_of(out).needs_ffmpeg)
+  if (!film_format_of(out).can_have_sound)
     throw Error(ErrorKind::bad_input,
                 out.string() + ": this format has no sound; choose .mp4 or .webm");
   shape.sound = sound_of(scene, pictures, frames.first / rate);

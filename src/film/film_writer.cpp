@@ -66,12 +66,12 @@ std::unique_ptr<FilmWriter> png_frames_writer(const Path& out, const FilmShape&)
 
 const std::vector<FilmFormat>& film_formats() {
   static const std::vector<FilmFormat> formats{
-      {".webp", "Animated WebP", false, webp_writer},
-      {".gif", "GIF", false, gif_writer},
-      {".apng", "Animated PNG", false, apng_writer},
-      {".png", "PNG files, one per frame", false, png_frames_writer},
-      {".mp4", "MP4 (H.264)", true, mp4_writer},
-      {".webm", "WebM (VP9)", true, webm_writer}};
+      {".webp", "Animated WebP", false, false, webp_writer},
+      {".gif", "GIF", false, false, gif_writer},
+      {".apng", "Animated PNG", false, false, apng_writer},
+      {".png", "PNG files, one per frame", false, false, png_frames_writer},
+      {".mp4", "MP4 (H.264)", true, true, mp4_writer},
+      {".webm", "WebM (VP9)", true, true, webm_writer}};
   return formats;
 }
 

@@ -28,7 +28,8 @@ class FilmWriter {
 
 struct FilmFormat {
   std::string extension, label;
-  bool needs_ffmpeg = false;  ///< such formats can have sound
+  bool needs_ffmpeg = false;
+  bool can_have_sound = false;
   std::unique_ptr<FilmWriter> (*open)(const Path& out, const FilmShape& shape) = nullptr;
 };
 

@@ -3,21 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "scene/clips.h"
 #include "scene/layers.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {
 
 constexpr int kRate = 48000;  ///< samples per second
 
-/// Numbers are written in full, because exponents mean something else to ffmpeg.
 std::string number(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.9f", value);
-  return text;
+  return decimal(value, 9);
 }
 
 /// The filter that plays sound faster or slower at the same pitch.
@@ -25,7 +22,8 @@ std::string tempo(double speed) {
   constexpr double kLeast = 0.5, kMost = 100;
   std::string filters;
   for (; speed < kLeast; speed /= kLeast) filters += "atempo=" + number(kLeast) + ",";
-  if (speed != 1) filters += "atempo=" + number(std::min(speed, kMost)) + ",";
+  for (; speed > kMost; speed /= kMost) filters += "atempo=" + number(kMost) + ",";
+  if (speed != 1) filters += "atempo=" + number(speed) + ",";
   return filters;
 }
 
@@ -59,14 +57,20 @@ std::vector<SoundTrack> sound_of(const Scene& scene, const Pictures& pictures, d
     const FilmInfo& film = footage->info();
     SoundTrack track;
     track.file = layer.image->file;
-    track.from = film.start + clip.first / film.frames_per_second;
-    track.length = (last_played_frame(clip) - clip.first + 1) / film.frames_per_second;
+    track.from = film.start + first_played_frame(clip) / film.frames_per_second;
+    track.length =
+        (last_played_frame(clip) - first_played_frame(clip) + 1) / film.frames_per_second;
     track.speed = clip.frames_per_second / film.frames_per_second;
     track.start = clip.start - zero;
     track.loops = clip.loops;
-    tracks.push_back(std::move(track));
+    // A film in several layers is heard once.
+    if (std::ranges::find(tracks, track) == tracks.end()) tracks.push_back(std::move(track));
   }
   return tracks;
+}
+
+bool has_sound(const Scene& scene, const Pictures& pictures) {
+  return !sound_of(scene, pictures, 0).empty();
 }
 
 SoundArguments sound_arguments(const std::vector<SoundTrack>& tracks, double seconds) {

@@ -15,11 +15,15 @@ struct SoundTrack {
   double speed = 1;             ///< how much faster it is played than recorded
   double start = 0;             ///< when it starts in the new film, in seconds; may be negative
   bool loops = false;
+  bool operator==(const SoundTrack&) const = default;
 };
 
 /// The sound of the films in a scene's visible layers. `zero` is the time of the new film's first
 /// frame.
 std::vector<SoundTrack> sound_of(const Scene& scene, const Pictures& pictures, double zero);
+
+/// Whether sound_of() finds any.
+bool has_sound(const Scene& scene, const Pictures& pictures);
 
 /// The arguments of ffmpeg that add sound to a film of this length in seconds whose frames are its
 /// first input: what opens the files, and what follows all inputs. Both are empty without tracks.

@@ -30,6 +30,7 @@ class PictureMaker::LayerMaker {
       : layer_(layer),
         deformation_(layer.deformation),
         linear_blend_(linear_blend),
+        given_(source),
         source_(source),
         footage_(std::move(footage)) {
     if (source) extent_ = {double(source->width), double(source->height)};
@@ -46,10 +47,17 @@ class PictureMaker::LayerMaker {
     fringe_.reset();
   }
 
-  /// Shows the frame of the layer's film, if it has one.
-  void show_frame(double time) {
+  /// Shows the frame of the layer's film at a time, if the layer has one; without a time, the
+  /// picture that was given.
+  void show_frame(const std::optional<double>& time) {
     if (!footage_) return;
-    auto frame = footage_->frame(holomorph::frame_at(*clip_of(layer_), time));
+    if (!time) {
+      if (source_ != given_) fringe_.reset();
+      source_ = given_;
+      frame_.reset();
+      return;
+    }
+    auto frame = footage_->frame(clip_frame_at(*clip_of(layer_), *time));
     if (frame == frame_) return;
     frame_ = std::move(frame);
     source_ = frame_.get();
@@ -60,6 +68,7 @@ class PictureMaker::LayerMaker {
   bool visible() const { return layer_.visible && source_; }
 
   RasterResult picture(const PictureOptions& options, double top, const Similarity& placement) {
+    show_frame(options.time);
     RasterJob job = job_of(options, top);
     job.placement = placement;
     if (!deformation_.has_cage()) {
@@ -93,7 +102,8 @@ class PictureMaker::LayerMaker {
   const Extent& extent() const { return extent_; }
 
   /// The undeformed picture.
-  RasterResult original(const PictureOptions& options, double top) const {
+  RasterResult original(const PictureOptions& options, double top) {
+    show_frame(options.time);
     return rasterized(job_of(options, top));
   }
 
@@ -201,7 +211,7 @@ class PictureMaker::LayerMaker {
   std::shared_ptr<const Fringe> new_fringe() const {
     if (!is_resized()) return fringe_of(*prepared_->mesh, *source_);
     if (is_opaque(*source_)) return nullptr;  // saves resizing the frames of a film
-    return fringe_of(*prepared_->mesh, original({}, extent_.height).image);
+    return fringe_of(*prepared_->mesh, rasterized(job_of({}, extent_.height)).image);
   }
 
   bool is_resized() const {
@@ -211,7 +221,8 @@ class PictureMaker::LayerMaker {
   const Layer& layer_;
   const Deformation& deformation_;
   bool linear_blend_;
-  const Image* source_;
+  const Image* given_;                  ///< the source at first
+  const Image* source_;                 ///< the picture that is drawn
   std::shared_ptr<Footage> footage_;    ///< null: the source does not move
   std::shared_ptr<const Image> frame_;  ///< the source, if it is a frame of the film
   Extent extent_;                       ///< of the picture's rectangle
@@ -238,11 +249,6 @@ PictureMaker::~PictureMaker() = default;
 
 void PictureMaker::show(const Image& picture) {
   layers_[scene_.edited]->show(picture);
-}
-
-void PictureMaker::show_frames(double time) {
-  for (size_t i = 0; i < layers_.size(); ++i)
-    if (is_shown(scene_, i)) layers_[i]->show_frame(time);
 }
 
 Box PictureMaker::rectangle() const {
@@ -282,7 +288,6 @@ std::optional<RasterResult> PictureMaker::originals(const PictureOptions& option
 RasterResult PictureMaker::picture(const PictureOptions& options) {
   if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_) && !has_clips(scene_))
     throw no_key_plays();
-  if (options.time) show_frames(*options.time);
   const Frame frame = frame_of(options);
   const auto drawn = [&](size_t layer) {
     return layers_[layer]->picture(frame.options, frame.top, placement(layer, options.time));

@@ -62,7 +62,6 @@ class PictureMaker {
     double top = 0;          ///< the upper edge of the pictures, at which rows of pixels start
   };
   Frame frame_of(const PictureOptions& options) const;
-  void show_frames(double time);
   bool draws(size_t layer) const;
   /// Where the plane of a layer lies in the scene's plane.
   Similarity placement(size_t layer, const std::optional<double>& time);

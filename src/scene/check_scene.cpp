@@ -163,7 +163,9 @@ bool has_extras(const Deformation& deformation) {
 void check_clip(const Clip& clip) {
   check_range("the film's frame rate", clip.frames_per_second, kMinFrameRate, kMaxFrameRate);
   check_range("the film's start", clip.start, -kMaxTime, kMaxTime);
-  check_range("the film's first frame", clip.first, 0, last_played_frame(clip));
+  check_range("the film's first frame", clip.first, 0, clip.last.value_or(kMaxFilmFrames));
+  check_range("the film's last frame", clip.last.value_or(0), 0, kMaxFilmFrames);
+  check_range("the number of the film's frames", clip.frames, 0, kMaxFilmFrames);
 }
 
 /// Whether the scene contains keys from its file that this version does not know.

@@ -1,3 +1,4 @@
+// Times become numbers of frames with a tolerance, so that equal rates give equal numbers.
 #include "scene/clips.h"
 
 #include <algorithm>
@@ -5,29 +6,31 @@
 
 namespace holomorph {
 
-int last_played_frame(const Clip& clip) {
-  const int end = std::max(clip.frames - 1, clip.first);
-  return std::clamp(clip.last.value_or(end), clip.first, end);
+int first_played_frame(const Clip& clip) {
+  return clip.frames > 0 ? std::min(clip.first, clip.frames - 1) : clip.first;
 }
 
-int frame_at(const Clip& clip, double time) {
+int last_played_frame(const Clip& clip) {
+  const int first = first_played_frame(clip), end = std::max(clip.frames - 1, first);
+  return std::clamp(clip.last.value_or(end), first, end);
+}
+
+int clip_frame_at(const Clip& clip, double time) {
   constexpr double kRounding = 1e-6;  // frames
+  const int first = first_played_frame(clip);
   const double passed = std::floor((time - clip.start) * clip.frames_per_second + kRounding);
-  const double count = last_played_frame(clip) - clip.first + 1;
+  const double count = last_played_frame(clip) - first + 1;
   const double played =
       clip.loops ? passed - count * std::floor(passed / count) : std::clamp(passed, 0.0, count - 1);
-  return clip.first + static_cast<int>(played);
+  return first + static_cast<int>(played);
 }
 
 double end_of(const Clip& clip) {
-  return clip.start + (last_played_frame(clip) - clip.first) / clip.frames_per_second;
-}
-
-Clip fitted(Clip clip, int frames) {
-  clip.frames = frames;
-  clip.first = std::clamp(clip.first, 0, std::max(0, frames - 1));
-  if (clip.last && (*clip.last < clip.first || *clip.last >= frames)) clip.last.reset();
-  return clip;
+  const int frames = last_played_frame(clip) - first_played_frame(clip);
+  double end = clip.start + frames / clip.frames_per_second;
+  const double period = (frames + 1) / clip.frames_per_second;
+  if (clip.loops && end <= 0) end += period * (std::floor(-end / period) + 1);
+  return end;
 }
 
 const Clip* clip_of(const Layer& layer) {

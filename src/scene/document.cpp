@@ -108,6 +108,22 @@ bool Document::commit(const std::string& label, Scene scene, std::optional<doubl
   return history_.commit(label, std::move(scene), at);
 }
 
+void Document::describe_films() {
+  std::vector<Layer> layers = layers_of(scene());
+  bool changes = false;
+  for (Layer& layer : layers) {
+    const Picture* picture = layer.image ? pictures_.find(*layer.image) : nullptr;
+    if (!picture || !picture->footage) continue;
+    ImageReference now = described(*layer.image, *picture);
+    changes = changes || now.clip != layer.image->clip;
+    layer.image = std::move(now);
+  }
+  if (!changes) return;
+  Scene described = scene();
+  described.layers = shared(std::move(layers));
+  history_.replace(std::move(described));
+}
+
 namespace {
 
 /// The scene with references updated to the pictures in memory. Copies pasted pictures to files

@@ -71,6 +71,8 @@ class Document {
   void show_frame(const Layer& layer, std::shared_ptr<const Image> frame) {
     pictures_.show_frame(layer, std::move(frame));
   }
+  /// Updates the clips of layers to the films that are stored. This is not a step of the history.
+  void describe_films();
   /// Stores all pictures of another scene.
   void add_pictures(const Pictures& pictures) { pictures_.add(pictures); }
   /// Allows reading the files that are out of reach.

@@ -7,19 +7,20 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "scene/formats/film_frames.h"
 
 namespace holomorph {
 
-/// The frames of a film or of numbered pictures. Shared by all who show it; safe to use from
-/// several threads. Keeps at most about 256 MB of frames.
+/// The frames of a film or of numbered pictures. Shared by all layers that show it; safe to use
+/// from several threads. All open films together keep about 256 MB of frames, but each keeps at
+/// least two.
 class Footage {
  public:
-  explicit Footage(std::unique_ptr<FrameReader> reader)
-      : reader_(std::move(reader)), info_(reader_->info()) {}
-  ~Footage();
+  explicit Footage(std::unique_ptr<FrameReader> reader);
+  ~Footage();  ///< stops decoding
   Footage(const Footage&) = delete;
   Footage& operator=(const Footage&) = delete;
 
@@ -29,11 +30,11 @@ class Footage {
   /// Throws Error.
   std::shared_ptr<const Image> frame(int number);
 
-  /// For a display that must not wait: the frame, or else the nearest one before it that is kept
-  /// and at most a second away, or null. Has the missing frame decoded on another thread, which
-  /// then calls `wake`, and reads a few frames ahead.
-  std::shared_ptr<const Image> frame_now(int number, const std::function<void()>& wake);
-  /// The error of the last frame that frame_now() asked for, only once.
+  /// For a display that must not wait: the frame, or else the nearest earlier one that is kept and
+  /// at most a second away, or null. Has the missing frame decoded on another thread, which then
+  /// calls `wake`, and a few frames after it. `viewer` tells apart those who ask, such as layers.
+  std::shared_ptr<const Image> frame_now(int viewer, int number, const std::function<void()>& wake);
+  /// An error of a frame that frame_now() asked for. Each frame is reported once.
   std::optional<Error> take_error();
 
  private:
@@ -42,8 +43,15 @@ class Footage {
     Frame image;
     unsigned long used = 0;
   };
+  /// What a viewer waits for: the frame with this number, and then those from `next` to `end`.
+  struct Request {
+    int number = 0, next = 0, end = 0;
+  };
+  int last() const { return info_.frames - 1; }
   Frame kept(int number);
   void keep(int number, const Frame& image);
+  size_t capacity() const;
+  Request* next_request();
   void work();
 
   std::mutex reading_;  ///< held while a frame is decoded
@@ -52,9 +60,10 @@ class Footage {
 
   std::mutex mutex_;  ///< guards everything below
   std::map<int, Kept> kept_;
-  size_t most_ = 0;  ///< number of frames that may be kept, once their size is known
+  size_t frame_bytes_ = 0;  ///< 0: not known yet
   unsigned long clock_ = 0;
-  std::optional<int> wanted_, failed_;
+  std::map<int, Request> requests_;  ///< by viewer
+  std::set<int> failed_;
   std::optional<Error> error_;
   std::function<void()> wake_;
   bool ends_ = false;

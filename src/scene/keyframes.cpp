@@ -74,12 +74,24 @@ bool has_time(const Scene& scene) {
   return has_keyframes(scene) || has_clips(scene);
 }
 
+bool moves(const Scene& scene) {
+  return any_layer(scene, [](const Deformation& layer) { return playing_keys(layer).size() > 1; });
+}
+
 bool plays(const Scene& scene) {
-  return std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
+  return moves(scene) || std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
+           const Clip* clip = clip_of(*layer);
+           return clip && last_played_frame(*clip) > first_played_frame(*clip) && end_of(*clip) > 0;
+         });
+}
+
+double period_of(const Scene& scene) {
+  const double length = length_of(scene);
+  const bool ends_with_film = std::ranges::any_of(scene.layers, [&](const SharedLayer& layer) {
     const Clip* clip = clip_of(*layer);
-    return playing_keys(layer->deformation).size() > 1 ||
-           (clip && last_played_frame(*clip) > clip->first && end_of(*clip) > 0);
+    return clip && end_of(*clip) >= length;
   });
+  return length + (ends_with_film ? 1 / scene.animation.frames_per_second : 0);
 }
 
 double length_of(const Scene& scene) {

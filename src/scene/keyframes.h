@@ -21,14 +21,19 @@ bool has_keyframes(const Scene& scene);
 bool has_playing_keys(const Scene& scene);
 /// Whether the scene may differ from one time to another: any layer has keyframes or a film.
 bool has_time(const Scene& scene);
-/// Whether the scene moves, that is, whether any layer has at least two keyframes that play, or a
-/// film.
+/// Whether the map of any layer moves, that is, whether a layer has at least two keyframes that
+/// play.
+bool moves(const Scene& scene);
+/// Whether the scene moves: moves(), or a layer has a film.
 bool plays(const Scene& scene);
 /// The error to throw if there are keyframes but none of them plays.
 Error no_key_plays();
 /// The latest key time in any layer, or the time of the last frame of a film if that is later; 0
 /// without either.
 double length_of(const Scene& scene);
+/// The time after which playback repeats: length_of(), and a frame more if a film ends there, whose
+/// last frame is then shown as long as the others.
+double period_of(const Scene& scene);
 /// The index of the last frame. Frame i is at time i / frames_per_second. The last frame is at the
 /// time length_of(scene), or just after it.
 int last_frame_of(const Scene& scene);

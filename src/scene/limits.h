@@ -20,6 +20,7 @@ inline constexpr double kMaxPinTurn = 1e5;     ///< radians
 inline constexpr int kMaxDepth = 1000;         ///< of a pin, in absolute value
 inline constexpr double kMaxTime = 3600;       ///< seconds
 inline constexpr double kMinFrameRate = 1, kMaxFrameRate = 240;  ///< per second
+inline constexpr int kMaxFilmFrames = 1'000'000'000;             ///< of a film that is a picture
 inline constexpr int kMaxTurns = 150;                            ///< between two keyframes
 inline constexpr size_t kMaxKeyframes = 2000;
 

@@ -6,8 +6,8 @@
 #include "scene/clips.h"
 #include "scene/flattened_surface.h"
 #include "scene/formats/file_kinds.h"
-#include "scene/formats/film_frames.h"
 #include "scene/formats/layered.h"
+#include "scene/formats/numbered_frames.h"
 #include "scene/formats/scene_json.h"
 #include "scene/preferences.h"
 #include "scene/prepared_map.h"
@@ -73,8 +73,6 @@ std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, 
   const Picture& picture = *pictures.find(reference);
   const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
   reference = described(std::move(reference), picture);
-  if (picture.footage)
-    pictures.show_frame(layer, picture.footage->frame(frame_at(*reference.clip, 0)));
   return other ? "The picture " + Path(reference.file).filename().string() +
                      " has changed since the scene was saved."
                : "";
@@ -146,6 +144,12 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
     if (loaded.warning.empty()) loaded.warning = warning;
   }
   loaded.scene.layers = shared(std::move(layers));
+  try {
+    loaded.pictures.show_time(loaded.scene, 0);
+  } catch (const Error& error) {
+    if (!options.pictures_may_be_missing) throw;
+    if (loaded.warning.empty()) loaded.warning = error.what();
+  }
   if (!options.keeps_origin) loaded.scene = without_origin(std::move(loaded.scene));
   return loaded;
 }
@@ -164,6 +168,7 @@ Sources sources_of(const Scene& scene, const Path& scene_path) {
 }
 
 void check_not_a_source(const Path& out, const Sources& sources) {
+  if (!path_exists(out)) return;
   const auto refuse_if = [&](const Path& source, const char* what) {
     std::error_code ignored;
     if (!source.empty() && fs::equivalent(out, source, ignored))

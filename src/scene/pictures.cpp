@@ -4,6 +4,7 @@
 #include "scene/clips.h"
 #include "scene/formats/file_kinds.h"
 #include "scene/formats/layered.h"
+#include "scene/formats/numbered_frames.h"
 
 namespace holomorph {
 namespace fs = std::filesystem;
@@ -61,7 +62,7 @@ ImageReference described(ImageReference reference, const Picture& picture) {
   if (!picture.footage) return reference;
   const FilmInfo& film = picture.footage->info();
   if (!reference.clip) reference.clip = Clip{film.frames_per_second};
-  reference.clip = fitted(*std::move(reference.clip), film.frames);
+  reference.clip->frames = film.frames;
   return reference;
 }
 
@@ -84,6 +85,12 @@ std::shared_ptr<const Image> Pictures::shared(const Layer& layer) const {
 
 void Pictures::show_frame(const Layer& layer, std::shared_ptr<const Image> frame) {
   frames_[layer.id] = {footage(layer), std::move(frame)};
+}
+
+void Pictures::show_time(const Scene& scene, double time) {
+  for (const SharedLayer& layer : scene.layers)
+    if (const auto footage = this->footage(*layer))
+      show_frame(*layer, footage->frame(clip_frame_at(*clip_of(*layer), time)));
 }
 
 const Image* Pictures::of(const Layer& layer) const {

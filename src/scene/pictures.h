@@ -66,6 +66,8 @@ class Pictures {
   std::shared_ptr<Footage> footage(const Layer& layer) const;
   /// Makes a frame of a layer's film the picture of this layer.
   void show_frame(const Layer& layer, std::shared_ptr<const Image> frame);
+  /// Does so for all films of a scene, with their frames at a time. Throws Error.
+  void show_time(const Scene& scene, double time);
   const Picture* find(const ImageReference& reference) const;
   void put(const ImageReference& reference, Picture picture);
   /// Withholds a file that a scene names: it must not be accessed until the user agrees.

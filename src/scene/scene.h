@@ -9,16 +9,16 @@
 
 namespace holomorph {
 
-/// How a film, or a row of numbered pictures, plays as the picture of a layer. Frames have numbers
-/// from 0 on.
+/// How a film, or a sequence of numbered pictures, plays as the picture of a layer. Frames have
+/// numbers from 0 on.
 struct Clip {
   double frames_per_second = 24;  ///< at which it plays
   int frames = 0;                 ///< of the whole film; 0: not known, because it was not opened
   int first = 0;                  ///< the first frame that plays
   std::optional<int> last = {};   ///< the last frame that plays; none: that of the film
   double start = 0;               ///< the time of the first frame, in seconds
-  bool loops =
-      false;  ///< starts again after the last frame, which else stays; also before the first
+  /// The frames repeat forever, also before `start`. Otherwise, the first and the last one stay.
+  bool loops = false;
   Extra extra = {};
   bool operator==(const Clip&) const = default;
 };

@@ -1,6 +1,10 @@
 #include "system/text.h"
 
+#include <array>
+#include <charconv>
 #include <sstream>
+
+#include "core/error.h"
 
 namespace holomorph {
 
@@ -27,6 +31,14 @@ std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
+}
+
+std::string decimal(double value, int digits) {
+  std::array<char, 400> text{};
+  const auto [end, wrong] = std::to_chars(text.data(), text.data() + text.size(), value,
+                                          std::chars_format::fixed, digits);
+  check(wrong == std::errc{}, "decimal: the number fits");
+  return {text.data(), end};
 }
 
 bool has_words(const std::string& text, const std::string& words) {

@@ -11,6 +11,8 @@ std::string printable(const std::string& text);
 
 /// The text with ASCII letters in lower case, for extensions and searches.
 std::string lower_case(std::string text);
+/// A number in decimal notation with this many digits after the point, in any locale.
+std::string decimal(double value, int digits);
 /// Whether a text contains all of these words, ignoring case.
 bool has_words(const std::string& text, const std::string& words);
 

@@ -1,3 +1,4 @@
+// Standard error goes to an unnamed file, so that the program never waits for a reader.
 #include "system/watched_program.h"
 
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// A program that runs beside this one, and what it says when it fails.
+// A running program with its error output.
 #pragma once
 
 #include <cstdio>

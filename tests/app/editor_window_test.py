@@ -332,7 +332,7 @@ class EditorWindowTest(WindowCase):
             self.plain(f"step-{k + 7:03d}.png", color)
         with Editor(PROGRAM, [os.path.join(self.work, "step-008.png")]) as editor:
             self.wait_color(editor, (150, 100), GREEN, "the picture alone")
-            editor.press_item("Play them as a film")
+            editor.press_item("Play as film")
             editor.wait(lambda s: s["shows_time"], "the timeline")
             for k, color in enumerate([RED, GREEN, BLUE]):
                 self.wait_color(editor, (150, 100), color, f"frame {k}")

@@ -1,5 +1,6 @@
 # Films and numbered pictures as pictures of layers. The films are made by ffmpeg. Each frame shows its own number as a
 # row of black and white bars, so that no other decoder is needed to tell which frame was drawn.
+import io
 import json
 import math
 import os
@@ -8,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import zipfile
 from fractions import Fraction
 
 import jsonschema
@@ -142,6 +144,40 @@ class Footage(Case):
             for name in os.listdir(self.folder):
                 os.remove(self.path(name))
 
+    def test_numbered_pictures_in_other_folders_are_not_reached_by_links(self):
+        os.mkdir(self.path("private"))
+        for k in range(3):
+            where = "private/b1.png" if k == 1 else f"b{k}.png"
+            Image.fromarray(numbered_frame(k)).save(self.path(where))
+        os.symlink(self.path("private/b1.png"), self.path("b1.png"))
+        self.assertEqual(self.frames_drawn(self.scene("b0.png", {"frames_per_second": 24})), [0])
+        self.remove_drawn()
+        os.remove(self.path("b1.png"))
+        os.symlink("b2.png", self.path("b1.png"))
+        self.assertEqual(self.frames_drawn(self.scene("b0.png", {"frames_per_second": 24})), [0, 2, 2])
+
+    def test_every_export_of_a_moment_shows_the_frame_of_that_moment(self):
+        """Also of hidden layers, and of pictures that are textures."""
+        for k in range(10):
+            Image.fromarray(numbered_frame(100 + k)).save(self.path(f"c{k}.png"))
+        frame = {"file": "c0.png", "clip": {"frames_per_second": 10}}
+        cage = {"rest": [[[0, 0]], [[WIDTH, 0]], [[WIDTH, HEIGHT]], [[0, HEIGHT]]]}
+        hidden = {"image": frame, "cage": {"rest": []}, "visible": False, "name": "hidden"}
+        scene = self.write("scene.json", {"format": "holomorph", "version": 2, "edited": 1,
+                                          "layers": [hidden, {"image": frame, "cage": cage, "name": "shown"}]})
+        self.good("export", scene, "--format", "unwarp", "--time", "0.7", "--out", self.path("u.png"))
+        self.assertEqual(number_in(Image.open(self.path("u.png"))), 107)
+        self.good("export", scene, "--format", "ora", "--time", "0.3", "--out", self.path("o.ora"))
+        with zipfile.ZipFile(self.path("o.ora")) as layers:
+            names = [name for name in layers.namelist() if name.startswith("data/")]
+            self.assertEqual(len(names), 2)
+            for name in names:
+                with layers.open(name) as file:
+                    self.assertEqual(number_in(Image.open(file)), 103)
+        self.good("export", scene, "--format", "glb", "--time", "0.5", "--out", self.path("g.glb"))
+        model = self.bytes_of("g.glb")
+        self.assertEqual(number_in(Image.open(io.BytesIO(model[model.index(b"\x89PNG"):]))), 105)
+
     def test_numbered_pictures_end_at_a_gap(self):
         for k in (0, 1, 2, 4):
             Image.fromarray(numbered_frame(k)).save(self.path(f"a{k:03d}.png"))
@@ -217,7 +253,7 @@ class Footage(Case):
         beep = "aevalsrc='0.6*sin(2*PI*880*t)*between(t,1,1.2)':d=3:s=44100"
         encode(self.path("film.mp4"), 75, 25, *H264, "-c:a", "aac", "-shortest", sound=("-f", "lavfi", "-i", beep))
         cases = [({}, [1.0]), ({"first": 10}, [0.6]), ({"start": 0.5}, [1.5]),
-                 ({"first": 20, "last": 39, "after": "loop"}, [0.2 + 0.8 * k for k in range(1)]),
+                 ({"first": 20, "last": 39, "after": "loop"}, [0.2]),
                  ({"frames_per_second": 50}, [0.5])]
         for clip, expected in cases:
             for kind in ("mp4", "webm"):
@@ -289,6 +325,7 @@ class Footage(Case):
     def test_a_damaged_film_never_shows_a_frame_too_early(self):
         encode(self.path("film.mkv"), 60, 25, *H264, "-g", "10")
         whole = self.bytes_of("film.mkv")
+        drawn = False
         for _ in range(4):
             cut = self.random.randrange(len(whole) // 3, len(whole))
             with open(self.path("film.mkv"), "wb") as file:
@@ -297,12 +334,25 @@ class Footage(Case):
             result = subprocess.run([PROGRAM, "render", scene, "--frames", "all", "--crop", "--out", self.path("drawn.png")],
                                     capture_output=True, text=True, timeout=120)
             self.assertIn(result.returncode, (0, 2), result.stderr)
+            drawn = drawn or result.returncode == 0
             if result.returncode == 0:
                 names = sorted(n for n in os.listdir(self.folder) if n.startswith("drawn-"))
                 numbers = [number_in(Image.open(self.path(n))) for n in names]
                 self.assertEqual(numbers, sorted(numbers))
                 self.assertTrue(all(number <= k for k, number in enumerate(numbers)), numbers)
             self.remove_drawn()
+        self.assertTrue(drawn, "none of the damaged films could be read")
+
+    def test_a_film_that_becomes_shorter_keeps_its_trims(self):
+        for k in range(12):
+            Image.fromarray(numbered_frame(k)).save(self.path(f"d{k:02d}.png"))
+        clip = {"frames_per_second": 12, "first": 4, "last": 9}
+        scene = self.scene("d00.png", clip, animation={"frames_per_second": 12})
+        self.assertEqual(self.frames_drawn(scene), [4, 5, 6, 7, 8, 9])
+        self.remove_drawn()
+        for k in range(7, 12):
+            os.remove(self.path(f"d{k:02d}.png"))
+        self.assertEqual(self.frames_drawn(scene), [4, 5, 6])
 
     def test_frames_are_not_overwritten(self):
         for k in range(3):

@@ -26,14 +26,15 @@ class CountingReader final : public FrameReader {
   FilmInfo info() const override { return {frames_, 25}; }
   Image read(int frame) override {
     ++reads;
-    if (frame == fails_at) throw Error(ErrorKind::bad_input, "frame cannot be decoded");
+    if (fails_from <= frame && frame <= fails_to)
+      throw Error(ErrorKind::bad_input, "frame cannot be decoded");
     Image image(side_, side_);
     image.pixels[0] = static_cast<std::uint8_t>(frame);
     return image;
   }
 
   std::atomic<int> reads = 0;
-  int fails_at = -1;
+  int fails_from = 0, fails_to = -1;
 
  private:
   int frames_, side_;
@@ -46,7 +47,7 @@ int number_of(const std::shared_ptr<const Image>& image) {
 /// Asks for a frame until it is there, for at most ten seconds.
 bool appears(Footage& footage, int number) {
   for (int i = 0; i < 1000; ++i) {
-    if (number_of(footage.frame_now(number, [] {})) == number) return true;
+    if (number_of(footage.frame_now(1, number, [] {})) == number) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return false;
@@ -81,7 +82,7 @@ TEST_CASE("The frame at a time is the last one that has begun") {
       int expected = static_cast<int>(std::clamp(i, 0.0, count - 1.0));
       if (clip.loops) expected = ((static_cast<int>(i) % count) + count) % count;
       INFO("seed " << seed << ", clip " << k);
-      CHECK(frame_at(clip, time) == clip.first + expected);
+      CHECK(clip_frame_at(clip, time) == clip.first + expected);
     }
   }
 }
@@ -89,13 +90,13 @@ TEST_CASE("The frame at a time is the last one that has begun") {
 TEST_CASE("Frame i of a film with the scene's rate is shown in frame i of the scene") {
   for (const double rate : {12.0, 24.0, 25.0, 29.97, 30000.0 / 1001, 60.0}) {
     Clip clip{rate, 5000};
-    for (int i = 0; i < 5000; ++i) REQUIRE(frame_at(clip, i / rate) == i);
+    for (int i = 0; i < 5000; ++i) REQUIRE(clip_frame_at(clip, i / rate) == i);
   }
 }
 
 TEST_CASE("Films lengthen a scene up to the time of their last frame") {
   Layer layer;
-  layer.image = ImageReference{"film.mp4"};
+  layer.image.emplace().file = "film.mp4";
   layer.image->clip = Clip{25, 101, 20, {}, 1.5};
   const Scene scene = scene_of(layer);
   CHECK(has_time(scene));
@@ -105,18 +106,32 @@ TEST_CASE("Films lengthen a scene up to the time of their last frame") {
   CHECK_FALSE(plays(scene_of(layer)));
 }
 
-TEST_CASE("A clip is limited to the frames of its film") {
-  const Clip clip = fitted(Clip{25, 100, 50, 80}, 60);
-  CHECK(clip.frames == 60);
-  CHECK(clip.first == 50);
+TEST_CASE("A film that has become shorter shows the frames that it still has") {
+  const Clip clip{25, 60, 50, 80};
+  CHECK(first_played_frame(clip) == 50);
   CHECK(last_played_frame(clip) == 59);
-  CHECK(last_played_frame(fitted(clip, 10)) == 9);
-  CHECK(fitted(clip, 10).first == 9);
+  const Clip shorter{25, 10, 50, 80};
+  CHECK(clip_frame_at(shorter, 0) == 9);
+  CHECK(clip_frame_at(shorter, 100) == 9);
+}
+
+TEST_CASE("Playback that ends with a film shows its last frame as long as the others") {
+  Layer layer;
+  layer.image.emplace();
+  layer.image->clip = Clip{12, 12};
+  Scene scene = scene_of(layer);
+  scene.animation.frames_per_second = 12;
+  CHECK(last_frame_of(scene) == 11);
+  CHECK(period_of(scene) == Approx(1));
+  layer.image->clip = Clip{12, 12, 0, {}, -3.5, true};  // ends long before time 0, again and again
+  CHECK(plays(scene_of(layer)));
+  CHECK(end_of(*layer.image->clip) > 0);
+  CHECK_FALSE(moves(scene_of(layer)));
 }
 
 TEST_CASE("Scene files keep clips, and what they do not know of them") {
   Layer layer;
-  layer.image = ImageReference{"film.mp4"};
+  layer.image.emplace().file = "film.mp4";
   layer.image->clip = Clip{23.976, 240, 3, 200, -1.25, true, R"({"later":[1]})"};
   const Scene scene = scene_of(layer);
   CHECK(scene_from_json(json_of(scene), "scene") == scene);
@@ -127,16 +142,47 @@ TEST_CASE("Scene files keep clips, and what they do not know of them") {
 TEST_CASE("A frame that is wanted now follows soon, and wakes the caller") {
   Footage footage(std::make_unique<CountingReader>(100, 4));
   std::atomic<int> woken = 0;
-  CHECK(footage.frame_now(7, [&] { ++woken; }) == nullptr);
-  CHECK(appears(footage, 7));
+  CHECK(footage.frame_now(1, 7, [&] { ++woken; }) == nullptr);
   for (int i = 0; i < 1000 && woken == 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   CHECK(woken > 0);
-  // While a frame is missing, one shortly before it stands in for it.
-  CHECK(number_of(footage.frame(50)) == 50);
-  CHECK(number_of(footage.frame_now(49, [] {})) != 50);
+  CHECK(number_of(footage.frame_now(1, 7, [] {})) == 7);
   CHECK(appears(footage, 99));
   CHECK(number_of(footage.frame(1000)) == 99);
+}
+
+TEST_CASE("A missing frame is replaced by one at most a second before it") {
+  auto reader = std::make_unique<CountingReader>(100, 4);
+  reader->fails_from = 49;
+  reader->fails_to = 99;
+  Footage footage(std::move(reader));
+  CHECK(number_of(footage.frame(48)) == 48);
+  CHECK(number_of(footage.frame_now(1, 49, [] {})) == 48);
+  CHECK(number_of(footage.frame_now(1, 48 + 25, [] {})) == 48);
+  CHECK(footage.frame_now(1, 48 + 26, [] {}) == nullptr);
+}
+
+TEST_CASE("Layers that show different times of a film all get their frames") {
+  Footage footage(std::make_unique<CountingReader>(200, 4));
+  for (int time = 0; time < 20; ++time) {
+    bool all = false;
+    for (int i = 0; i < 1000 && !all; ++i) {
+      all = true;
+      for (int layer = 0; layer < 3; ++layer) {
+        const int number = time + 60 * layer;
+        all = number_of(footage.frame_now(layer, number, [] {})) == number && all;
+      }
+      if (!all) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    REQUIRE(all);
+  }
+}
+
+TEST_CASE("A frame that was forgotten is decoded again when it is shown again") {
+  Footage footage(std::make_unique<CountingReader>(60, 4096));  // 64 MiB for each frame
+  CHECK(appears(footage, 3));
+  for (int i = 20; i < 30; ++i) footage.frame(i);
+  CHECK(appears(footage, 3));
 }
 
 TEST_CASE("Frames are decoded once as long as they are kept") {
@@ -162,25 +208,28 @@ TEST_CASE("Only about 256 MB of frames are kept") {
 
 TEST_CASE("A frame that cannot be decoded is reported once and not tried again") {
   auto reader = std::make_unique<CountingReader>(100, 4);
-  reader->fails_at = 30;
+  reader->fails_from = 30;
+  reader->fails_to = 33;
   const CountingReader& counter = *reader;
   Footage footage(std::move(reader));
   CHECK_THROWS_AS(footage.frame(30), Error);
   std::optional<Error> error;
   for (int i = 0; i < 1000 && !error; ++i) {
-    footage.frame_now(30, [] {});
+    footage.frame_now(1, 30, [] {});
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     error = footage.take_error();
   }
   REQUIRE(error);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // frames ahead
+  footage.take_error();
   const int reads = counter.reads;
-  for (int i = 0; i < 20; ++i) {
-    footage.frame_now(30, [] {});
+  for (int i = 0; i < 40; ++i) {
+    footage.frame_now(1, 30 + i % 2, [] {});
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  CHECK(counter.reads <= reads + 7);  // frames ahead
+  CHECK(counter.reads <= reads + 7);
   CHECK_FALSE(footage.take_error());
-  CHECK(appears(footage, 31));
+  CHECK(appears(footage, 34));
 }
 
 TEST_CASE("Several threads may ask for frames") {
@@ -193,7 +242,7 @@ TEST_CASE("Several threads may ask for frames") {
       for (int i = 0; i < 300; ++i) {
         const int number = static_cast<int>(random() % 200);
         if (t % 2 == 0 && number_of(footage.frame(number)) != number) ++wrong;
-        if (t % 2 == 1) footage.frame_now(number, [] {});
+        if (t % 2 == 1) footage.frame_now(1, number, [] {});
       }
     });
   for (std::thread& thread : threads) thread.join();

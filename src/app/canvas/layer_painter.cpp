@@ -24,14 +24,18 @@ int LayerPainter::update_picture(std::shared_ptr<const Image> picture, bool move
     }
     return std::exchange(factor_, 0);
   }
+  const bool moved = std::exchange(moves_, moves);
   picture_ = std::move(picture);
   preparing_.reset();
   uploading_ = false;
   if (!picture_) return renderer_.set_picture(0, 0, nullptr);
   const size_t pixels =
       static_cast<size_t>(picture_->width) * static_cast<size_t>(picture_->height);
-  if (moves || pixels <= kSmallPixels)
-    return renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data());
+  if (moves || pixels <= kSmallPixels) {
+    const int factor =
+        renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data());
+    return moves && moved ? 0 : factor;
+  }
   ready_ = std::make_shared<TextureLevels>();
   preparing_ = std::make_unique<Job>(
       "Texture",
@@ -63,9 +67,12 @@ void LayerPainter::update_fringe(const LiveMap& map, bool moved) {
   }
   const std::pair sought{map.prepared()->mesh, picture_};
   if (fringed_ != sought) {
+    // The fringe of a film's last frame stays until the next one is known.
+    if (!moves_ || fringed_.first != sought.first) {
+      fringe_.reset();
+      renderer_.set_fringe(nullptr);
+    }
     fringed_ = sought;
-    fringe_.reset();
-    renderer_.set_fringe(nullptr);
     fringe_answer_.reset();
     if (seeks_fringe_) seeks_fringe_->cancel();
     needs_fringe_ = picture_ != nullptr;

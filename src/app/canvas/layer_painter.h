@@ -19,9 +19,9 @@ class LayerPainter {
   explicit LayerPainter(std::function<void()> wake) : wake_(std::move(wake)) {}
 
   /// Sets the current picture, or null. Large pictures are prepared on another thread and appear
-  /// gradually, unless they are frames of a film (`moves`). Once per picture, when the factor by
-  /// which it was reduced for this driver is known, returns that factor (1: not reduced). All other
-  /// calls return 0.
+  /// gradually, unless they are frames of a film (`moves`). Once per picture or film, when the
+  /// factor by which it was reduced for this driver is known, returns that factor (1: not reduced).
+  /// All other calls return 0.
   int update_picture(std::shared_ptr<const Image> picture, bool moves = false);
   /// Allocates GPU memory for a prepared picture, which can take as long as a frame. Returns
   /// whether a picture was prepared.
@@ -52,6 +52,7 @@ class LayerPainter {
   bool uploading_ = false;
   int factor_ = 0;  ///< not returned yet; 0: none
   std::shared_ptr<const Image> picture_;
+  bool moves_ = false;  ///< the picture is a frame of a film
   /// The fringe of the picture around a mesh; null while it is sought, or if there is none.
   struct FringeAnswer {
     std::mutex mutex;

@@ -27,15 +27,14 @@ std::vector<ExportChoice> export_choices(const Scene& scene) {
     all.push_back({format.label, format.extension});
   for (const LayeredFormat& format : layered_formats())
     all.push_back({format.label, format.extension});
-  const bool moves = plays(scene);
-  if (moves)
+  if (plays(scene))
     for (const FilmFormat& format : film_formats())
       all.push_back({format.label, format.extension, ExportKind::film});
   const bool has_cage = scene.deformation().has_cage();
   for (const ExportFormat& format : export_formats()) {
     if (format.label.empty()) continue;
     if (format.meshes && (format.all_layers ? has_any_cage(scene) : has_cage) &&
-        (moves || !format.sequence))
+        (moves(scene) || !format.sequence))
       all.push_back({format.label, format.extensions[0], ExportKind::meshes});
     if (format.st_map && has_cage)
       all.push_back({format.label, format.extensions[0],

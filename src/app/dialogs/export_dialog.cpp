@@ -180,7 +180,7 @@ std::string ExportDialog::result_text() const {
 std::vector<Path> ExportDialog::files() const {
   if (settings_.kind == ExportKind::film) return files_of_film(settings_.path, frames());
   const Document& document = workspace_.document;
-  if (is_st_map(settings_.kind) && settings_.all_frames && plays(document.scene())) {
+  if (is_st_map(settings_.kind) && settings_.all_frames && moves(document.scene())) {
     std::vector<Path> all;
     for (int i = settings_.first; i <= settings_.last; ++i)
       all.push_back(numbered(settings_.path, i));
@@ -199,7 +199,8 @@ std::string ExportDialog::start(const ExportSettings& settings) {
       film_format_of(settings.path);
     else if (settings.kind == ExportKind::picture && !layered_format_of(settings.path))
       picture_format_of(settings.path);
-    for (const Path& file : files()) check_may_write(file, document.sources());
+    const Sources sources = document.sources();
+    for (const Path& file : files()) check_may_write(file, sources);
     if (const std::string problem = missing_picture_message(workspace_, settings.kind);
         !problem.empty())
       return problem;
@@ -274,7 +275,8 @@ void ExportDialog::accept() {
   }
   name_ = path.string();
   try {
-    for (const Path& file : files()) check_may_write(file, workspace_.document.sources());
+    const Sources sources = workspace_.document.sources();
+    for (const Path& file : files()) check_may_write(file, sources);
   } catch (const Error& problem) {
     message_ = problem.what();
     return;
@@ -403,8 +405,8 @@ void ExportDialog::draw_frames() {
   }
   if (settings_.kind != ExportKind::film) return;
   const Document& document = workspace_.document;
-  if (film_format_of(settings_.path).needs_ffmpeg &&
-      !sound_of(document.scene(), document.pictures(), 0).empty() &&
+  if (film_format_of(settings_.path).can_have_sound &&
+      has_sound(document.scene(), document.pictures()) &&
       switch_row("Sound", settings_.keeps_sound, "Keep the sound of films that are pictures"))
     settings_.keeps_sound = !settings_.keeps_sound;
   if (switch_row("Loop", settings_.loops)) settings_.loops = !settings_.loops;
@@ -427,7 +429,7 @@ void ExportDialog::draw_meshes() {
     if (slider_row("Per layer", vertices, {.low = 30, .high = 5000, .logarithmic = true}))
       settings_.vertices = static_cast<size_t>(std::lround(vertices));
   }
-  if (!plays(scene)) return;
+  if (!moves(scene)) return;
   draw_frames();
   const std::string format = mesh_export_of(settings_, scene).format;
   if (!export_format_named(format).all_layers) return;
@@ -444,7 +446,7 @@ void ExportDialog::draw_st_map() {
     settings_.overscan = static_cast<int>(std::lround(overscan));
   row_label("");
   check_box("Half precision", settings_.half);
-  if (!plays(workspace_.document.scene())) return;
+  if (!moves(workspace_.document.scene())) return;
   row_label("");
   if (check_box("All frames", settings_.all_frames)) confirming_ = false;
   if (settings_.all_frames) draw_frames();

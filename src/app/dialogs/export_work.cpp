@@ -26,8 +26,8 @@ std::string size_text(int width, int height) {
 std::string exported_film(const ExportWork& work, Job::Progress& progress) {
   const ExportSettings& settings = work.settings;
   const FilmOptions film{work.options, settings.first, settings.last, settings.loops,
-                         settings.keeps_sound && film_format_of(settings.path).needs_ffmpeg &&
-                             !sound_of(work.scene, work.pictures, 0).empty()};
+                         settings.keeps_sound && film_format_of(settings.path).can_have_sound &&
+                             has_sound(work.scene, work.pictures)};
   const auto written = write_film(
       settings.path, work.scene, work.pictures.of(work.scene.layer()), film,
       [&](int done, int all) { return progress.at(done, all); }, work.pictures);
@@ -76,7 +76,7 @@ std::string exported_st_map(const ExportWork& work, Job::Progress& progress) {
   const StMapOptions options{settings.kind == ExportKind::unwarp_map, settings.scale,
                              settings.overscan, work.options.time};
   const FloatBits bits = settings.half ? FloatBits::half : FloatBits::single;
-  if (settings.all_frames && plays(work.scene)) {
+  if (settings.all_frames && moves(work.scene)) {
     const auto size = write_st_maps(work.scene, picture ? *picture : none, options, settings.first,
                                     settings.last, settings.path, bits,
                                     [&](int done, int all) { return progress.at(done, all); });
@@ -104,7 +104,7 @@ MeshExport mesh_export_of(const ExportSettings& settings, const Scene& scene) {
     if (format.meshes && format.extensions[0] == extension) wanted.format = format.id;
   wanted.out = settings.path;
   wanted.vertices = settings.vertices;
-  if (!plays(scene)) return wanted;
+  if (!moves(scene)) return wanted;
   wanted.frames = std::pair(settings.first, settings.last);
   if (!wanted.format.empty() && export_format_named(wanted.format).all_layers)
     wanted.rate = settings.rate;

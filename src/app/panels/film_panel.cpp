@@ -8,12 +8,17 @@
 
 #include "app/look/controls.h"
 #include "app/look/numbers.h"
-#include "edit/film_frames.h"
+#include "edit/films.h"
+#include "edit/timeline.h"
 #include "scene/clips.h"
-#include "scene/formats/file_kinds.h"
 
 namespace holomorph {
 namespace {
+
+/// The action that plays numbered pictures.
+const Action& play_action(const Workspace& workspace) {
+  return workspace.actions.named("layer.play_numbered");
+}
 
 /// Applies a change of a number to the clip.
 template <class Edit>
@@ -30,51 +35,17 @@ int whole(double value) {
   return static_cast<int>(std::lround(value));
 }
 
-}  // namespace
-
-/// The number of pictures with successive numbers to which a layer's picture belongs.
-size_t FilmPanel::count_numbered(const Layer& layer) {
-  const std::string& file = layer.image->file;
-  if (counted_ == file) return count_;
-  counted_ = file;
-  try {
-    count_ = is_named_as(file, FileContent::picture)
-                 ? numbered_pictures(first_numbered_picture(file)).size()
-                 : 0;
-  } catch (const Error&) {
-    count_ = 0;  // there are too many of them
-  }
-  return count_;
+/// The start of the film, at a frame of the timeline.
+void start_row(Workspace& workspace, double start) {
+  const Number number{-kMaxTime, kMaxTime, "s", 2, false, 0.0, 0.01};
+  const double rate = workspace.document.scene().animation.frames_per_second;
+  apply(workspace, number_row("Start", start, number, "When the film starts on the timeline"),
+        [&](Clip& clip) { clip.start = std::round(start * rate) / rate; });
 }
 
-bool FilmPanel::has_film(const Workspace& workspace) {
-  const Layer& layer = workspace.document.scene().layer();
-  if (clip_of(layer)) return true;
-  return layer.image && layer.image->entry.empty() &&
-         workspace.document.pictures().find(*layer.image) && count_numbered(layer) > 1;
-}
-
-void FilmPanel::draw(Workspace& workspace) {
-  const Layer& layer = workspace.document.scene().layer();
-  const Clip* clip = clip_of(layer);
-  if (!clip) {
-    caption("This picture is one of " + std::to_string(count_numbered(layer)) +
-            " with successive numbers.");
-    const Action& play = workspace.actions.named("layer.play_numbered");
-    if (button("Play them as a film", ButtonKind::secondary, -1)) run(play, workspace);
-    return;
-  }
-  char text[80];
-  std::snprintf(text, sizeof text, "%d frames, %.1f s", clip->frames,
-                clip->frames / clip->frames_per_second);
-  caption(text);
-  double start = clip->start, rate = clip->frames_per_second, first = clip->first,
-         last = last_played_frame(*clip);
-  const double most = std::max(0, clip->frames - 1);
-  apply(workspace,
-        number_row("Start", start, {-kMaxTime, kMaxTime, "s", 2, false, 0.0, 0.01},
-                   "When the film starts on the timeline"),
-        [&](Clip& it) { it.start = std::round(1000 * start) / 1000; });
+void range_rows(Workspace& workspace, const Clip& clip) {
+  const double most = std::max(0, clip.frames - 1);
+  double first = first_played_frame(clip), last = last_played_frame(clip);
   apply(workspace,
         number_row("First frame", first, {0, most, "", 0, false, 0.0, 0.2},
                    "The film plays from this frame on"),
@@ -86,18 +57,41 @@ void FilmPanel::draw(Workspace& workspace) {
           it.last = std::max(whole(last), it.first);
           if (*it.last == it.frames - 1) it.last.reset();
         });
+}
+
+void speed_row(Workspace& workspace, double rate) {
+  const int decimals = rate == std::round(rate) ? 0 : 3;
   apply(workspace,
-        number_row(
-            "Speed", rate,
-            {kMinFrameRate, kMaxFrameRate, "fps", rate == std::round(rate) ? 0 : 3, false, {}, 1},
-            "How many of its frames are shown in a second"),
-        [&](Clip& it) { it.frames_per_second = std::round(1000 * rate) / 1000; });
-  const Clip now = *clip_of(workspace.document.scene().layer());
-  if (switch_row("Repeat", now.loops,
+        number_row("Speed", rate, {kMinFrameRate, kMaxFrameRate, "fps", decimals, false, {}, 1},
+                   "How many of its frames are shown in a second"),
+        [&](Clip& clip) { clip.frames_per_second = std::round(1000 * rate) / 1000; });
+}
+
+}  // namespace
+
+bool has_film(const Workspace& workspace) {
+  return clip_of(workspace.document.scene().layer()) || play_action(workspace).enabled(workspace);
+}
+
+void film_section(Workspace& workspace) {
+  if (!clip_of(workspace.document.scene().layer())) {
+    caption("There are more pictures with successive numbers.");
+    if (button("Play as film", ButtonKind::secondary, -1)) run(play_action(workspace), workspace);
+    return;
+  }
+  const Clip clip = *clip_of(workspace.document.scene().layer());
+  char text[80];
+  std::snprintf(text, sizeof text, "%d frames, %.1f s", clip.frames,
+                clip.frames / clip.frames_per_second);
+  caption(text);
+  start_row(workspace, clip.start);
+  range_rows(workspace, clip);
+  speed_row(workspace, clip.frames_per_second);
+  if (switch_row("Repeat", clip.loops,
                  "Start again after the last frame. If this is off, the last frame stays.")) {
-    Clip looped = now;
-    looped.loops = !now.loops;
-    set_clip(workspace, looped);
+    Clip repeated = *clip_of(workspace.document.scene().layer());
+    repeated.loops = !clip.loops;
+    set_clip(workspace, std::move(repeated));
     workspace.end_mergeable_step();
   }
 }

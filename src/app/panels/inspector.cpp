@@ -133,8 +133,7 @@ PanelAnswer draw_inspector(Workspace& workspace, const InspectorParts& parts,
   section(
       "layers", "Layers", {}, true, [&] { parts.layers.draw(workspace, parts.thumbnails); },
       parts.layers.is_renaming());
-  if (parts.film.has_film(workspace))
-    section("film", "Film", {}, true, [&] { parts.film.draw(workspace); });
+  if (has_film(workspace)) section("film", "Film", {}, true, [&] { film_section(workspace); });
   section("method", "Method", {}, true, [&] {
     const PanelAnswer method = method_section(workspace, parts.preferences);
     answer.preferences_changed = answer.preferences_changed || method.preferences_changed;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/look/surfaces.h"
-#include "app/panels/film_panel.h"
 #include "app/panels/layer_panel.h"
 #include "app/panels/panel_focus.h"
 #include "app/panels/start_card.h"
@@ -56,7 +55,6 @@ void draw_options_bar(Workspace& workspace, const PanelSizes& sizes);
 /// What the inspector shows besides the workspace.
 struct InspectorParts {
   LayerPanel& layers;
-  FilmPanel& film;
   Thumbnails& thumbnails;
   Preferences& preferences;
   const HeatScale& heat;

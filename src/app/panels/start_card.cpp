@@ -24,7 +24,7 @@ namespace {
 constexpr double kCardWidth = 400;
 
 std::shared_ptr<const Image> picture_of(const Workspace& workspace) {
-  return workspace.document.pictures().shared(workspace.document.scene().layer());
+  return workspace.document.pictures().still(workspace.document.scene().layer());
 }
 
 struct Choice {

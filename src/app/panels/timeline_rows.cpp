@@ -187,7 +187,7 @@ void TimelineRows::draw_name(Workspace& workspace, const Row& row, ImVec2 at, fl
             shortened_text(title_of_layer(scene, row.layer), width - px(74)));
 }
 
-/// Draws a bar where the layer's film plays, lighter where it repeats.
+/// Draws a bar where the layer's film plays, and a lighter one where it repeats.
 void TimelineRows::draw_clip(const Clip& clip, float middle) const {
   const ThemeColors& c = theme_colors();
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -2,7 +2,7 @@
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "scene/formats/file_kinds.h"
-#include "scene/formats/film_frames.h"
+#include "scene/formats/numbered_frames.h"
 
 namespace holomorph {
 namespace {

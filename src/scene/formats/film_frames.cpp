@@ -6,17 +6,20 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 #include "core/clock.h"
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/json_reader.h"
 #include "scene/limits.h"
+#include "system/text.h"
 #include "system/watched_program.h"
 
 namespace holomorph {
@@ -25,7 +28,7 @@ namespace {
 constexpr double kPatienceMs = 60000;  ///< how long ffmpeg may take for its next answer
 
 /// What the decoder needs to know about a film.
-struct FilmStream {
+struct ProbedFilm {
   Path file;
   FilmInfo info;
   std::string decoder = {};  ///< empty: the usual one
@@ -36,16 +39,37 @@ std::string needs(const Path& file, const std::string& program) {
          ", which is not installed; install the package ffmpeg";
 }
 
+void append(std::vector<std::string>& words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
 [[noreturn]] void fail(const Path& file, const std::string& why) {
   throw Error(ErrorKind::bad_input, file.string() + ": " + why);
+}
+
+/// Frames must fit into memory several times.
+void check_frame_size(size_t width, size_t height, const Path& file) {
+  constexpr double kMostPixels = 64e6;
+  PixelBudget().take(width, height, file.string());
+  if (static_cast<double>(width) * static_cast<double>(height) > kMostPixels)
+    fail(file, "its frames have more than 64 megapixels");
+}
+
+/// The number at the start of a text, in any locale; none if there is none.
+std::optional<double> number_in(std::string_view text) {
+  double value = 0;
+  const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return wrong == std::errc{} ? std::optional(value) : std::nullopt;
 }
 
 /// A ratio such as "30000/1001"; 0 if it is not one.
 double ratio_of(const Json& object, const char* key) {
   const std::string text = object.value(key, "");
-  double over = 0, under = 0;
-  if (std::sscanf(text.c_str(), "%lf/%lf", &over, &under) != 2 || under <= 0) return 0;
-  return over / under;
+  const size_t slash = text.find('/');
+  if (slash == std::string::npos) return 0;
+  const auto numerator = number_in(text),
+             denominator = number_in(std::string_view(text).substr(slash + 1));
+  return numerator && denominator && *denominator > 0 ? *numerator / *denominator : 0;
 }
 
 /// The lowest rate at which each frame of the film has a number of its own, or else the average
@@ -58,110 +82,119 @@ double rate_of(const Json& stream) {
   return rate > 0 ? std::clamp(rate, kMinFrameRate, kMaxFrameRate) : 24;
 }
 
-/// A time in seconds that ffprobe writes as a string.
-std::optional<double> time_in(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_string()) return {};
-  double seconds = 0;
-  if (std::sscanf(found->get_ref<const std::string&>().c_str(), "%lf", &seconds) != 1) return {};
-  return seconds;
-}
-
-Json probed(const Path& file, const std::vector<std::string>& question) {
+/// What ffprobe writes about a film.
+std::string probed(const Path& file, const std::vector<std::string>& question) {
   std::vector<std::string> words{"ffprobe", "-v", "error"};
-  const auto add = [&](const std::vector<std::string>& more) {
-    words.insert(words.end(), more.begin(), more.end());
-  };
-  add(film_reading_options());
-  add(question);
-  add({"-of", "json", "file:" + file.string()});
+  append(words, film_reading_options());
+  append(words, question);
+  words.push_back("file:" + file.string());
   if (!has_program("ffprobe")) throw Error(ErrorKind::failed, needs(file, "ffprobe"));
   const double start = now_ms();
-  constexpr size_t kMostText = size_t{128} << 20;
+  constexpr size_t kMostText = size_t{32} << 20;
   const auto answer = run_program(
       words, "", [&] { return now_ms() - start < kPatienceMs; }, kMostText);
-  if (!answer) fail(file, "the film could not be examined within a minute");
-  Json parsed = Json::parse(answer->output, nullptr, false);
-  if (answer->status != 0 || !parsed.is_object())
+  if (!answer) fail(file, "it takes more than a minute, or 32 MB, to list the film's frames");
+  if (answer->status != 0)
     fail(file, "not a film in a supported format (MP4, QuickTime, Matroska, WebM or AVI)");
-  return parsed;
+  return answer->output;
 }
 
-FilmStream probed_stream(const Path& file) {
-  read_start(file, 1);  // throws if this is not a readable file
-  const Json answer = probed(file, {"-select_streams", "V:0", "-show_entries",
-                                    "packet=pts_time,dts_time,flags:stream=codec_name,width,"
-                                    "height,avg_frame_rate,r_frame_rate:stream_tags=alpha_mode"});
-  const auto streams = answer.find("streams"), packets = answer.find("packets");
-  if (streams == answer.end() || streams->empty() || packets == answer.end())
-    fail(file, "the file has no pictures that move");
-  const Json& stream = streams->front();
-  FilmStream film{file, {}};
-  film.info.frames_per_second = rate_of(stream);
+/// Finds the first and the last time stamp of the frames.
+void measure_times(ProbedFilm& film) {
+  std::istringstream lines(
+      probed(film.file, {"-select_streams", "V:0", "-show_entries",
+                         "packet=pts_time,dts_time,flags", "-of", "csv=print_section=0"}));
   double first = std::numeric_limits<double>::infinity(), last = -first;
-  for (const Json& packet : *packets) {
-    if (packet.value("flags", "").find('D') != std::string::npos) continue;  // never shown
-    auto time = time_in(packet, "pts_time");
-    if (!time) time = time_in(packet, "dts_time");
+  for (std::string line; std::getline(lines, line);) {
+    const size_t comma = line.find(','), flags = line.rfind(',');
+    if (comma == std::string::npos || line.find('D', flags) != std::string::npos) continue;
+    auto time = number_in(line);
+    if (!time) time = number_in(std::string_view(line).substr(comma + 1));
     if (!time) continue;
     first = std::min(first, *time);
     last = std::max(last, *time);
   }
-  if (!(first <= last)) fail(file, "the film has no frames");
+  if (!(first <= last)) fail(film.file, "the film has no frames");
   film.info.start = first;
   const double frames = std::round((last - first) * film.info.frames_per_second) + 1;
-  check_budget(&Budget::frames, frames, file.string() + ": the film has");
+  check_budget(&Budget::frames, frames, film.file.string() + ": the film has");
   film.info.frames = static_cast<int>(frames);
+}
+
+/// Whether a stream is a film, and not a picture of the cover.
+bool is_video(const Json& stream) {
+  const auto disposition = stream.find("disposition");
+  return stream.value("codec_type", "") == "video" &&
+         !(disposition != stream.end() && disposition->value("attached_pic", 0) == 1);
+}
+
+ProbedFilm probed_film(const Path& file) {
+  read_start(file, 1);  // throws if this is not a readable file
+  const Json answer = Json::parse(
+      probed(file, {"-show_entries",
+                    "stream=codec_type,codec_name,width,height,avg_frame_rate,r_frame_rate:"
+                    "stream_disposition=attached_pic:stream_tags=alpha_mode",
+                    "-of", "json"}),
+      nullptr, false);
+  if (!answer.is_object() || !answer.contains("streams")) fail(file, "the file has no video");
+  const Json& streams = answer["streams"];
+  const auto video = std::ranges::find_if(streams, is_video);
+  if (video == streams.end()) fail(file, "the file has no video");
+  const auto side = [&](const char* key) {
+    const auto found = video->find(key);
+    return found != video->end() && found->is_number_unsigned() ? found->get<size_t>() : size_t{0};
+  };
+  check_frame_size(side("width"), side("height"), file);
+  ProbedFilm film{file, {}};
+  film.info.frames_per_second = rate_of(*video);
+  film.info.has_sound = std::ranges::any_of(
+      streams, [](const Json& stream) { return stream.value("codec_type", "") == "audio"; });
   // The usual decoders of these formats leave out the alpha channel.
-  const std::string codec = stream.value("codec_name", "");
-  const auto tags = stream.find("tags");
-  if (tags != stream.end() && tags->value("alpha_mode", "") == "1" &&
+  const std::string codec = video->value("codec_name", "");
+  const auto tags = video->find("tags");
+  if (tags != video->end() && tags->value("alpha_mode", "") == "1" &&
       (codec == "vp8" || codec == "vp9"))
     film.decoder = codec == "vp8" ? "libvpx" : "libvpx-vp9";
-  PixelBudget alone;
-  const auto side = [&](const char* key) {
-    const auto found = stream.find(key);
-    return found != stream.end() && found->is_number_unsigned() ? found->get<size_t>() : size_t{0};
-  };
-  alone.take(side("width"), side("height"), file.string());
-  const Json sound = probed(file, {"-select_streams", "a:0", "-show_entries", "stream=index"});
-  film.info.has_sound = sound.contains("streams") && !sound["streams"].empty();
+  measure_times(film);
   return film;
 }
 
-/// The command that decodes the frames from `first` on, as a row of PAM pictures.
-std::vector<std::string> command_of(const FilmStream& film, int first) {
-  char at[48], rate[48], pixels[48];
-  std::snprintf(at, sizeof at, "%.9f", film.info.start + first / film.info.frames_per_second);
-  std::snprintf(rate, sizeof rate, "%.12g", film.info.frames_per_second);
-  std::snprintf(pixels, sizeof pixels, "%.0f", budget().pixels);
+/// Frames as PAM pictures, with square pixels.
+const char* const kConversion =
+    "scale=trunc(iw*sar+0.5):ih:flags=bicubic+accurate_rnd+full_chroma_int,setsar=1,format=rgba";
+const std::vector<std::string> kOutput{"-c:v", "pam", "-f", "image2pipe", "pipe:1"};
+
+std::vector<std::string> decoding_command() {
   std::vector<std::string> words{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error"};
-  const auto add = [&](const std::vector<std::string>& more) {
-    words.insert(words.end(), more.begin(), more.end());
-  };
-  add(film_reading_options());
-  add({"-max_pixels", pixels});
-  if (!film.decoder.empty()) add({"-c:v", film.decoder});
+  append(words, film_reading_options());
+  return words;
+}
+
+/// The command that decodes the frames from `first` on.
+std::vector<std::string> command_of(const ProbedFilm& film, int first) {
+  const std::string at = decimal(film.info.start + first / film.info.frames_per_second, 9);
+  std::vector<std::string> words = decoding_command();
+  if (!film.decoder.empty()) append(words, {"-c:v", film.decoder});
   // Time stamps stay those of the file. Decoding starts at the last key frame before the time, and
   // the filter fps leaves out what comes before it. So a stream from the middle of the film has the
   // same frames as one from its start, also where frames have different durations.
-  add({"-copyts"});
-  if (first > 0) add({"-noaccurate_seek", "-seek_timestamp", "1", "-ss", at});
-  add({"-i", "file:" + film.file.string(), "-map", "0:V:0", "-vf",
-       std::string("fps=fps=") + rate + ":start_time=" + at +
-           ":round=near,scale=trunc(iw*sar+0.5):ih:flags=bicubic+accurate_rnd+full_chroma_int,"
-           "setsar=1,format=rgba",
-       "-fps_mode", "passthrough", "-c:v", "pam", "-f", "image2pipe", "pipe:1"});
+  append(words, {"-copyts"});
+  if (first > 0) append(words, {"-noaccurate_seek", "-seek_timestamp", "1", "-ss", at});
+  append(words, {"-i", "file:" + film.file.string(), "-map", "0:V:0", "-vf",
+                 "fps=fps=" + decimal(film.info.frames_per_second, 9) + ":start_time=" + at +
+                     ":round=near," + kConversion,
+                 "-fps_mode", "passthrough"});
+  append(words, kOutput);
   return words;
 }
 
 /// A running ffmpeg, and the number of the frame that it sends next.
 class FrameStream {
  public:
-  FrameStream(const FilmStream& film, int first)
-      : file_(film.file),
-        next_(first),
-        ffmpeg_(command_of(film, first), needs(film.file, "ffmpeg")) {}
+  /// Reading stops soon after `canceled` becomes true; it must outlive the stream.
+  FrameStream(const Path& file, const std::vector<std::string>& command, int first,
+              const std::atomic<bool>& canceled)
+      : file_(file), next_(first), canceled_(canceled), ffmpeg_(command, needs(file, "ffmpeg")) {}
 
   int next() const { return next_; }
   std::string complaint() const { return ffmpeg_.complaint(); }
@@ -177,7 +210,7 @@ class FrameStream {
   }
 
  private:
-  /// An empty image with the size that a PAM header names.
+  /// An empty image with the size that a PAM header states.
   std::optional<Image> read_header() {
     constexpr size_t kLongest = 200;
     constexpr std::string_view kEnd = "ENDHDR\n";
@@ -193,8 +226,7 @@ class FrameStream {
                     &depth) != 3 ||
         depth != 4 || shape.width < 1 || shape.height < 1)
       fail(file_, "ffmpeg sent a frame in an unknown format");
-    PixelBudget alone;
-    alone.take(static_cast<size_t>(shape.width), static_cast<size_t>(shape.height), file_.string());
+    check_frame_size(static_cast<size_t>(shape.width), static_cast<size_t>(shape.height), file_);
     return shape;
   }
 
@@ -202,10 +234,7 @@ class FrameStream {
   size_t receive(void* into, size_t count) {
     size_t got = 0;
     while (got < count) {
-      pollfd wait{ffmpeg_.socket(), POLLIN, 0};
-      const int ready = ::poll(&wait, 1, static_cast<int>(kPatienceMs));
-      if (ready < 0 && errno == EINTR) continue;
-      if (ready == 0) fail(file_, "ffmpeg has not decoded a frame for a minute");
+      wait();
       const ssize_t part = ::recv(ffmpeg_.socket(), static_cast<char*>(into) + got, count - got, 0);
       if (part < 0 && errno == EINTR) continue;
       if (part <= 0) break;
@@ -214,16 +243,28 @@ class FrameStream {
     return got;
   }
 
+  /// Waits until there is something to receive.
+  void wait() const {
+    constexpr int kStepMs = 50;
+    const double start = now_ms();
+    for (pollfd waiting{ffmpeg_.socket(), POLLIN, 0}; ::poll(&waiting, 1, kStepMs) <= 0;) {
+      if (canceled_) throw Error(ErrorKind::failed, file_.string() + ": reading was canceled");
+      if (now_ms() - start > kPatienceMs) fail(file_, "ffmpeg has not sent a frame for a minute");
+    }
+  }
+
   Path file_;
   int next_;
+  const std::atomic<bool>& canceled_;
   WatchedProgram ffmpeg_;
 };
 
 class Film final : public FrameReader {
  public:
-  explicit Film(const Path& file) : film_(probed_stream(file)) {}
+  explicit Film(const Path& file) : film_(probed_film(file)) {}
 
   FilmInfo info() const override { return film_.info; }
+  void cancel() override { canceled_ = true; }
 
   Image read(int frame) override {
     if (std::optional<Image> found = read_from(frame, frame)) return std::move(*found);
@@ -241,7 +282,7 @@ class Film final : public FrameReader {
   std::optional<Image> read_from(int from, int frame) {
     const int worth_skipping = static_cast<int>(2 * film_.info.frames_per_second);
     if (!stream_ || frame < stream_->next() || frame > stream_->next() + worth_skipping)
-      stream_.emplace(film_, from);
+      stream_.emplace(film_.file, command_of(film_, from), from, canceled_);
     std::optional<Image> last;
     while (stream_->next() <= frame) {
       std::optional<Image> next = stream_->read();
@@ -255,8 +296,9 @@ class Film final : public FrameReader {
     return last;
   }
 
-  FilmStream film_;
+  ProbedFilm film_;
   std::string complaint_;  ///< of the stream that ended last
+  std::atomic<bool> canceled_ = false;
   std::optional<FrameStream> stream_;
 };
 
@@ -268,6 +310,18 @@ std::vector<std::string> film_reading_options() {
 
 std::unique_ptr<FrameReader> open_film(const Path& file) {
   return std::make_unique<Film>(file);
+}
+
+Image first_frame_of_film(const Path& file) {
+  read_start(file, 1);
+  std::vector<std::string> words = decoding_command();
+  append(words,
+         {"-i", "file:" + file.string(), "-map", "0:V:0", "-frames:v", "1", "-vf", kConversion});
+  append(words, kOutput);
+  const std::atomic<bool> canceled = false;
+  if (std::optional<Image> first = FrameStream(file, words, 0, canceled).read())
+    return std::move(*first);
+  fail(file, "not a film in a supported format");
 }
 
 }  // namespace holomorph

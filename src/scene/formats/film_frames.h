@@ -1,7 +1,8 @@
-// Reads films and numbered pictures frame by frame.
+// Reads films frame by frame.
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scene/formats/image.h"
@@ -21,9 +22,11 @@ class FrameReader {
  public:
   virtual ~FrameReader() = default;
   virtual FilmInfo info() const = 0;
-  /// Decodes a frame, upright and in sRGB. Throws Error{bad_input}. The frame after the one that
-  /// was read last is the fastest to read.
+  /// Decodes a frame, upright and with 8 bits per channel. Throws Error{bad_input}. The frame after
+  /// the one that was read last is the fastest to read.
   virtual Image read(int frame) = 0;
+  /// Makes read() throw Error soon, also one that is running on another thread.
+  virtual void cancel() {}
 };
 
 /// Opens a film through the programs ffprobe and ffmpeg. Frame i is what a player shows at i /
@@ -32,19 +35,11 @@ class FrameReader {
 /// is not a film, failed if ffmpeg is not installed. Cost: reads the whole file once.
 std::unique_ptr<FrameReader> open_film(const Path& file);
 
-/// Options for ffmpeg and ffprobe, before a film is named, that keep it from having other files or
-/// addresses read.
+/// Options for ffmpeg and ffprobe, before a film is named. They allow only containers that do not
+/// have other files or addresses read.
 std::vector<std::string> film_reading_options();
 
-/// Opens pictures whose names end with successive numbers, beginning with this one. Throws
-/// Error{bad_input} if its name does not end with a number.
-std::unique_ptr<FrameReader> open_numbered_pictures(const Path& first);
-/// The files of these pictures: this one, and those with the numbers after it up to the first gap.
-/// Empty if the file's name does not end with a number.
-std::vector<Path> numbered_pictures(const Path& first);
-/// Whether there is a picture with the number before or after this one's.
-bool has_numbered_neighbor(const Path& file);
-/// The first of the pictures with successive numbers to which this one belongs.
-Path first_numbered_picture(const Path& any);
+/// The first frame of a film, without examining the rest. Throws Error like open_film().
+Image first_frame_of_film(const Path& file);
 
 }  // namespace holomorph

@@ -1,4 +1,6 @@
-// Pictures whose names end with successive numbers, as animation programs write them.
+// Numbers may be padded with zeros to the same number of digits, or not.
+#include "scene/formats/numbered_frames.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -6,7 +8,6 @@
 
 #include "core/error.h"
 #include "scene/budget.h"
-#include "scene/formats/film_frames.h"
 
 namespace holomorph {
 namespace {
@@ -15,15 +16,35 @@ namespace {
 struct NumberedName {
   Path folder;
   std::string before, after;  ///< the texts around the number
-  int digits = 0;             ///< numbers with fewer digits begin with zeros
+  int digits = 0;             ///< of this name
+  bool is_padded = false;     ///< the number begins with a zero
   long number = 0;
 
+  /// The name with another number. If it is not known whether shorter numbers are padded, the file
+  /// that exists decides.
   Path with(long other) const {
+    const Path padded = named(other, digits);
+    return is_padded || is_file(padded) ? padded : named(other, 1);
+  }
+
+ private:
+  Path named(long other, int width) const {
     char text[32];
-    std::snprintf(text, sizeof text, "%0*ld", digits, other);
+    std::snprintf(text, sizeof text, "%0*ld", width, other);
     return folder / (before + text + after);
   }
 };
+
+/// Whether a file can be a frame. Scenes may not have links out of their folder read.
+bool is_frame(const Path& file) {
+  std::error_code error;
+  if (!is_file(file)) return false;
+  if (!std::filesystem::is_symlink(file, error)) return true;
+  const auto folder_of = [&](const Path& path) {
+    return std::filesystem::canonical(path, error).parent_path();
+  };
+  return std::filesystem::canonical(file.parent_path(), error) == folder_of(file);
+}
 
 std::optional<NumberedName> numbered_name(const Path& file) {
   constexpr size_t kMostDigits = 9;
@@ -34,9 +55,9 @@ std::optional<NumberedName> numbered_name(const Path& file) {
     --start;
   if (start == stem.size()) return {};
   const std::string digits = stem.substr(start);
-  // Without a leading zero, numbers may have any number of digits.
-  return NumberedName{file.parent_path(), stem.substr(0, start), file.extension().string(),
-                      digits[0] == '0' ? static_cast<int>(digits.size()) : 1, std::stol(digits)};
+  return NumberedName{file.parent_path(),        stem.substr(0, start),
+                      file.extension().string(), static_cast<int>(digits.size()),
+                      digits[0] == '0',          std::stol(digits)};
 }
 
 class NumberedPictures final : public FrameReader {
@@ -74,7 +95,7 @@ std::vector<Path> numbered_pictures(const Path& first) {
   std::vector<Path> files;
   const std::optional<NumberedName> name = numbered_name(first);
   if (!name || !is_file(first)) return files;
-  for (Path file = first; is_file(file);
+  for (Path file = first; files.empty() || is_frame(file);
        file = name->with(name->number + static_cast<long>(files.size()))) {
     files.push_back(file);
     check_budget(&Budget::frames, static_cast<double>(files.size()),
@@ -85,15 +106,15 @@ std::vector<Path> numbered_pictures(const Path& first) {
 
 bool has_numbered_neighbor(const Path& file) {
   const std::optional<NumberedName> name = numbered_name(file);
-  return name && (is_file(name->with(name->number + 1)) ||
-                  (name->number > 0 && is_file(name->with(name->number - 1))));
+  return name && (is_frame(name->with(name->number + 1)) ||
+                  (name->number > 0 && is_frame(name->with(name->number - 1))));
 }
 
 Path first_numbered_picture(const Path& any) {
   const std::optional<NumberedName> name = numbered_name(any);
   if (!name) return any;
   long first = name->number;
-  while (first > 0 && is_file(name->with(first - 1))) --first;
+  while (first > 0 && is_frame(name->with(first - 1))) --first;
   return first == name->number ? any : name->with(first);
 }
 

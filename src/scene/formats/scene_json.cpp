@@ -25,12 +25,11 @@ constexpr const char* kLoop = "loop";
 Clip read_clip(const Reader& reader) {
   reader.object();
   Clip clip;
-  constexpr int kMostFrames = 1'000'000'000;
   if (reader.has("frames_per_second"))
     clip.frames_per_second = reader["frames_per_second"].within(kMinFrameRate, kMaxFrameRate);
-  if (reader.has("frames")) clip.frames = reader["frames"].whole(1, kMostFrames);
-  if (reader.has("first")) clip.first = reader["first"].whole(0, kMostFrames);
-  if (reader.has("last")) clip.last = reader["last"].whole(clip.first, kMostFrames);
+  if (reader.has("frames")) clip.frames = reader["frames"].whole(1, kMaxFilmFrames);
+  if (reader.has("first")) clip.first = reader["first"].whole(0, kMaxFilmFrames);
+  if (reader.has("last")) clip.last = reader["last"].whole(clip.first, kMaxFilmFrames);
   if (reader.has("start")) clip.start = reader["start"].within(-kMaxTime, kMaxTime);
   if (reader.has("after")) {
     const std::string after = reader["after"].text();

@@ -7,6 +7,7 @@
 
 namespace holomorph {
 
+/// Not in an unnamed namespace, because a class of the header has it as a part.
 struct DeleteTransform {
   void operator()(void* transform) const { cmsDeleteTransform(transform); }
 };
