@@ -116,6 +116,17 @@ class AgainstTheCommandLine(Folder):
         printed("render", sample("fern.json"), "--time", "0.3", "--out", self.path("o.png"))
         self.assertTrue(np.array_equal(moving.render(time=0.3), np.array(Image.open(self.path("o.png")).convert("RGBA"))))
 
+    def test_a_film_shows_the_frame_of_each_time(self):
+        for k in range(4):
+            Image.new("RGBA", (30, 20), (40 * k, 0, 0, 255)).save(self.path(f"frame{k}.png"))
+        with open(self.path("film.json"), "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "cage": {"rest": []},
+                       "image": {"file": "frame0.png", "clip": {"frames_per_second": 4, "first": 1}}}, file)
+        scene = holomorph.load(self.path("film.json"))
+        for time, red in ((None, 40), (0.3, 80), (None, 40), (9.0, 120), (0.0, 40)):
+            shown = scene.render() if time is None else scene.render(time=time)
+            self.assertEqual(shown[10, 10, 0], red, time)
+
     def test_coordinates_have_the_same_bits(self):
         scene = self.scene()
         scene.save(self.path("s.json"))

@@ -10,9 +10,12 @@
 
 #include "core/error.h"
 #include "scene/clips.h"
+#include "scene/formats/numbered_frames.h"
 #include "scene/formats/scene_json.h"
 #include "scene/keyframes.h"
+#include "support/folder.h"
 #include "support/seeds.h"
+#include "system/new_file.h"
 
 using namespace holomorph;
 
@@ -230,6 +233,29 @@ TEST_CASE("A frame that cannot be decoded is reported once and not tried again")
   CHECK(counter.reads <= reads + 7);
   CHECK_FALSE(footage.take_error());
   CHECK(appears(footage, 34));
+}
+
+TEST_CASE("Numbered pictures are found from any of them") {
+  const Folder folder;
+  const std::vector<std::vector<std::string>> sequences{
+      {"a001.png", "a002.png", "a003.png"},
+      {"b8.png", "b9.png", "b10.png", "b11.png"},
+      {"c098.png", "c099.png", "c100.png", "c101.png"},
+      {"d 0.png", "d 1.png"}};
+  for (const auto& names : sequences) {
+    for (const std::string& name : names) write_file(folder.path / name, "x");
+    for (const std::string& name : names) {
+      INFO(name);
+      CHECK(first_numbered_picture(folder.path / name) == folder.path / names[0]);
+      CHECK(has_numbered_neighbor(folder.path / name));
+    }
+    std::vector<Path> files;
+    for (const std::string& name : names) files.push_back(folder.path / name);
+    CHECK(numbered_pictures(files[0]) == files);
+  }
+  write_file(folder.path / "alone7.png", "x");
+  CHECK_FALSE(has_numbered_neighbor(folder.path / "alone7.png"));
+  CHECK(numbered_pictures(folder.path / "missing1.png").empty());
 }
 
 TEST_CASE("Several threads may ask for frames") {
