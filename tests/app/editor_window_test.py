@@ -327,6 +327,21 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+z")
             self.wait_color(editor, (150, 100), colors[frame], "the whole film again")
 
+    def test_a_film_with_sound_is_exported_with_it_by_default(self):
+        film = self.film([RED, GREEN, BLUE, RED], 4)
+        heard = os.path.join(self.work, "heard.mp4")
+        subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-f", "lavfi", "-i", "sine=frequency=440:duration=1", "-c:v",
+                        "copy", "-c:a", "aac", heard], check=True)
+        with Editor(PROGRAM, [heard]) as editor:
+            editor.wait(lambda s: s["pictured"] and s["shows_time"], "the film")
+            self.ask(editor, "ctrl+e")
+            editor.key("Return")
+            out = os.path.join(self.work, "heard-bent.mp4")
+            editor.wait(lambda s: not s["exporting"] and os.path.exists(out), "the exported film")
+            kinds = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "stream=codec_type", "-of", "csv=p=0", out],
+                                   capture_output=True, text=True, check=True).stdout.split()
+            self.assertEqual(sorted(kinds), ["audio", "video"])
+
     def test_numbered_pictures_play_as_a_film(self):
         for k, color in enumerate([RED, GREEN, BLUE]):
             self.plain(f"step-{k + 7:03d}.png", color)

@@ -14,8 +14,10 @@
 #include "app/panels/panels.h"
 #include "edit/content.h"
 #include "exports/export_formats.h"
+#include "scene/clips.h"
 #include "scene/formats/file_kinds.h"
 #include "scene/formats/layered.h"
+#include "system/process.h"
 
 namespace holomorph {
 namespace {
@@ -57,8 +59,10 @@ void ExportDialog::ask(std::optional<ExportKind> asked, const Path& folder) {
   const bool moves = plays(document.scene());
   const ExportKind usual = moves ? ExportKind::film : ExportKind::picture;
   const ExportKind kind = asked.value_or(last_ && last_moved_ == moves ? last_->kind : usual);
-  const auto extension_of = [](ExportKind kind) {
-    return kind == ExportKind::film ? ".webp" : ".png";
+  const bool keeps_sound =
+      has_sound(document.scene(), document.pictures()) && has_program("ffmpeg");
+  const auto extension_of = [&](ExportKind kind) {
+    return kind != ExportKind::film ? ".png" : keeps_sound ? ".mp4" : ".webp";
   };
   folder_ = folder;
   if (last_) {
@@ -69,8 +73,9 @@ void ExportDialog::ask(std::optional<ExportKind> asked, const Path& folder) {
     const std::string stem = source.empty() ? "picture" : source.stem().string();
     settings_ = {};
     settings_.kind = kind;
-    settings_.path =
-        folder / (stem + (kind == ExportKind::film ? "" : "-bent") + extension_of(kind));
+    // Neither a picture nor a film must replace its source.
+    const bool is_source = kind != ExportKind::film || has_clips(document.scene());
+    settings_.path = folder / (stem + (is_source ? "-bent" : "") + extension_of(kind));
   }
   const int last = last_frame_of(document.scene());
   const bool had_all = !last_ || last_all_;
