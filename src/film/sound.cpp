@@ -58,8 +58,7 @@ std::vector<SoundTrack> sound_of(const Scene& scene, const Pictures& pictures, d
     SoundTrack track;
     track.file = layer.image->file;
     track.from = film.start + first_played_frame(clip) / film.frames_per_second;
-    track.length =
-        (last_played_frame(clip) - first_played_frame(clip) + 1) / film.frames_per_second;
+    track.length = played_frames(clip) / film.frames_per_second;
     track.speed = clip.frames_per_second / film.frames_per_second;
     track.start = clip.start - zero;
     track.loops = clip.loops;

@@ -15,20 +15,26 @@ int last_played_frame(const Clip& clip) {
   return std::clamp(clip.last.value_or(end), first, end);
 }
 
+int played_frames(const Clip& clip) {
+  return last_played_frame(clip) - first_played_frame(clip) + 1;
+}
+
+double duration_of(const Clip& clip) {
+  return played_frames(clip) / clip.frames_per_second;
+}
+
 int clip_frame_at(const Clip& clip, double time) {
   constexpr double kRounding = 1e-6;  // frames
-  const int first = first_played_frame(clip);
   const double passed = std::floor((time - clip.start) * clip.frames_per_second + kRounding);
-  const double count = last_played_frame(clip) - first + 1;
+  const double count = played_frames(clip);
   const double played =
       clip.loops ? passed - count * std::floor(passed / count) : std::clamp(passed, 0.0, count - 1);
-  return first + static_cast<int>(played);
+  return first_played_frame(clip) + static_cast<int>(played);
 }
 
 double end_of(const Clip& clip) {
-  const int frames = last_played_frame(clip) - first_played_frame(clip);
-  double end = clip.start + frames / clip.frames_per_second;
-  const double period = (frames + 1) / clip.frames_per_second;
+  const double period = duration_of(clip);
+  double end = clip.start + period - 1 / clip.frames_per_second;
   if (clip.loops && end <= 0) end += period * (std::floor(-end / period) + 1);
   return end;
 }

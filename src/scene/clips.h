@@ -9,6 +9,9 @@ namespace holomorph {
 /// still has.
 int first_played_frame(const Clip& clip);
 int last_played_frame(const Clip& clip);
+/// The number of frames that play, and how long all of them are shown, in seconds.
+int played_frames(const Clip& clip);
+double duration_of(const Clip& clip);
 /// The number of the frame that is shown at a time. A frame is shown from its own time until just
 /// before the time of the next one.
 int clip_frame_at(const Clip& clip, double time);

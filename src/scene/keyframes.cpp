@@ -81,7 +81,7 @@ bool moves(const Scene& scene) {
 bool plays(const Scene& scene) {
   return moves(scene) || std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
            const Clip* clip = clip_of(*layer);
-           return clip && last_played_frame(*clip) > first_played_frame(*clip) && end_of(*clip) > 0;
+           return clip && played_frames(*clip) > 1 && end_of(*clip) > 0;
          });
 }
 

@@ -81,8 +81,7 @@ void film_section(Workspace& workspace) {
   }
   const Clip clip = *clip_of(workspace.document.scene().layer());
   char text[80];
-  std::snprintf(text, sizeof text, "%d frames, %.1f s", clip.frames,
-                clip.frames / clip.frames_per_second);
+  std::snprintf(text, sizeof text, "%d frames, plays %.2f s", clip.frames, duration_of(clip));
   caption(text);
   start_row(workspace, clip.start);
   range_rows(workspace, clip);

@@ -192,8 +192,8 @@ void TimelineRows::draw_clip(const Clip& clip, float middle) const {
   const ThemeColors& c = theme_colors();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float half = px(11), end = ruler_.right() + px(kMargin);
-  const double after = end_of(clip) + 1 / clip.frames_per_second;
-  const ImVec2 from(ruler_.x(clip.start), middle - half), to(ruler_.x(after), middle + half);
+  const ImVec2 from(ruler_.x(clip.start), middle - half),
+      to(ruler_.x(clip.start + duration_of(clip)), middle + half);
   const auto tint = [&](float alpha) {
     const ImGuiStyle& style = ImGui::GetStyle();
     ImVec4 color = ImGui::ColorConvertU32ToFloat4(c.accent);
