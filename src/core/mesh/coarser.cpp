@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/polygon.h"
+
 namespace holomorph {
 namespace {
 
@@ -22,25 +24,37 @@ double roundness(Complex a, Complex b, Complex c) {
 /// Locates points near given vertices.
 class NearbyTriangles {
  public:
-  explicit NearbyTriangles(const Mesh& mesh) : mesh_(mesh), around_(mesh.vertices.size()) {
+  explicit NearbyTriangles(const Mesh& mesh)
+      : mesh_(mesh), around_(mesh.vertices.size()), visited_(mesh.triangles.size(), 0) {
     for (size_t i = 0; i < mesh.triangles.size(); ++i)
       for (const int v : mesh.triangles[i])
         around_[static_cast<size_t>(v)].push_back(static_cast<int>(i));
   }
 
-  /// Walks from the triangles around a vertex to where the smallest barycentric coordinate of z is
-  /// largest, as long as it grows.
-  Location location(int vertex, Complex z) const {
-    Location best = weighted(around_[static_cast<size_t>(vertex)].front(), z);
-    for (bool better = true; better && least(best) < 0;) {
-      better = false;
-      const Triangle corners = mesh_.triangles[static_cast<size_t>(best.triangle)];
-      for (const int v : corners)
-        for (const int i : around_[static_cast<size_t>(v)])
-          if (const Location here = weighted(i, z); least(here) > least(best)) {
-            best = here;
-            better = true;
-          }
+  /// The triangle in which the smallest barycentric coordinate of z is largest, among those within
+  /// the distance of a vertex from z that are connected with it within this distance.
+  Location location(int vertex, Complex z) {
+    ++search_;
+    const double reach = std::abs(mesh_.vertices[static_cast<size_t>(vertex)] - z);
+    std::vector<int> waiting;
+    const auto visit = [&](int v) {
+      for (const int i : around_[static_cast<size_t>(v)])
+        if (std::exchange(visited_[static_cast<size_t>(i)], search_) != search_)
+          waiting.push_back(i);
+    };
+    visit(vertex);
+    Location best = weighted(waiting.front(), z);
+    while (!waiting.empty() && least(best) < 0) {
+      const int i = waiting.back();
+      waiting.pop_back();
+      if (const Location here = weighted(i, z); least(here) > least(best)) best = here;
+      const Triangle& t = mesh_.triangles[static_cast<size_t>(i)];
+      for (size_t k = 0; k < 3; ++k) {
+        const auto corner = [&](size_t j) { return mesh_.vertices[static_cast<size_t>(t[j % 3])]; };
+        if (nearest_on_segment(corner(k), corner(k + 1), z).distance > reach) continue;
+        visit(t[k]);
+        visit(t[(k + 1) % 3]);
+      }
     }
     return best;
   }
@@ -58,6 +72,8 @@ class NearbyTriangles {
 
   const Mesh& mesh_;
   std::vector<std::vector<int>> around_;  ///< the triangles around each vertex
+  std::vector<int> visited_;              ///< the last search that came to each triangle
+  int search_ = 0;
 };
 
 class Collapse {
@@ -68,8 +84,12 @@ class Collapse {
         triangles_(mesh.triangles),
         around_(mesh.vertices.size()),
         into_(mesh.vertices.size()),
+        loops_(mesh.boundary_loops()),
+        place_(mesh.vertices.size(), -1),
         left_(mesh.vertices.size()) {
     std::iota(into_.begin(), into_.end(), 0);
+    for (size_t i = 0; i < mesh.boundary.size(); ++i)
+      place_[static_cast<size_t>(mesh.boundary[i])] = static_cast<Index>(i);
     for (size_t i = 0; i < triangles_.size(); ++i)
       for (int k = 0; k < 3; ++k) {
         around(triangles_[i][k]).push_back(static_cast<int>(i));
@@ -108,7 +128,7 @@ class Collapse {
             v >= 0)
           mesh.boundary.push_back(v);
     }
-    const NearbyTriangles nearby(mesh);
+    NearbyTriangles nearby(mesh);
     for (size_t v = 0; v < around_.size(); ++v) {
       size_t end = v;
       while (into_[end] != static_cast<int>(end)) end = static_cast<size_t>(into_[end]);
@@ -148,17 +168,23 @@ class Collapse {
     });
   }
 
-  /// Whether the boundary keeps its shape if `from` moves along it.
-  bool keeps_boundary(int from, int to) {
-    constexpr double kStraight = 0.1;
-    for (const int w : neighbors(from)) {
-      if (w == to || !on_boundary(w) ||
-          std::ranges::count_if(around(from), [&](int i) { return has(triangle(i), w); }) != 1)
-        continue;
-      if (std::abs(cross(at(from) - at(w), at(to) - at(w))) > kStraight * std::norm(at(to) - at(w)))
-        return false;
-    }
-    return true;
+  /// Whether the boundary keeps its shape if `from` moves along it: whether the vertices of the
+  /// finer mesh between the ends of the new edge lie close to that edge.
+  bool keeps_boundary(int from) const {
+    constexpr double kStraight = 0.05;
+    std::vector<int> between{from};
+    const auto walk = [&](auto step) {
+      Index i = step(place_[static_cast<size_t>(from)]);
+      const auto vertex = [&] { return mesh_.boundary[static_cast<size_t>(i)]; };
+      for (; into_[static_cast<size_t>(vertex())] != vertex(); i = step(i))
+        between.push_back(vertex());
+      return at(vertex());
+    };
+    const Complex start = walk([&](Index i) { return loops_.before(i); });
+    const Complex end = walk([&](Index i) { return loops_.next(i); });
+    return std::ranges::all_of(between, [&](int v) {
+      return nearest_on_segment(start, end, at(v)).distance <= kStraight * std::abs(end - start);
+    });
   }
 
   /// Moves `from` to its neighbor `to`, if that is possible.
@@ -170,7 +196,7 @@ class Collapse {
     std::vector<int> shared;
     std::ranges::set_intersection(neighbors(from), neighbors(to), std::back_inserter(shared));
     if (std::ssize(shared) != common || !keeps_shapes(from, to)) return false;
-    if (on_boundary(from) && !keeps_boundary(from, to)) return false;
+    if (on_boundary(from) && !keeps_boundary(from)) return false;
     for (const int i : std::exchange(around(from), {})) {
       Triangle& t = triangle(i);
       if (has(t, to)) {
@@ -192,6 +218,8 @@ class Collapse {
   std::vector<Triangle> triangles_;           ///< removed ones have negative corners
   std::vector<std::vector<int>> around_;      ///< the triangles around each vertex
   std::vector<int> into_;                     ///< where each vertex has moved; itself if it is left
+  Loops loops_;                               ///< of the finer mesh's boundary
+  std::vector<Index> place_;                  ///< where each vertex is on it, or -1
   size_t left_;                               ///< vertices that are left
   using Edge = std::tuple<double, int, int>;  // squared length and ends
   std::priority_queue<Edge, std::vector<Edge>, std::greater<>> shortest_;

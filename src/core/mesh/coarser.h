@@ -16,8 +16,8 @@ struct CoarserMesh {
 
 /// A mesh with `count` of the vertices of another mesh, or more if no further edge is found that
 /// can collapse. It has the same number of holes. All triangles stay counter-clockwise, and none
-/// becomes a sliver. The boundary keeps only some of its vertices; it moves by up to a tenth of an
-/// edge in each collapse. `cage_vertices` is empty. Cost: O(n log n).
+/// becomes a sliver. The boundary keeps only some of its vertices; the others lie within a
+/// twentieth of an edge's length from that edge. `cage_vertices` is empty. Cost: O(n log n).
 CoarserMesh coarser_mesh(const Mesh& mesh, size_t count);
 
 }  // namespace holomorph
