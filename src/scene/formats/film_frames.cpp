@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -27,11 +28,18 @@ namespace {
 
 constexpr double kPatienceMs = 60000;  ///< how long ffmpeg may take for its next answer
 
+/// A frame at which decoding can start.
+struct KeyFrame {
+  double shown;   ///< its time stamp
+  double stored;  ///< a time that finds it, and not a later one, in the film's index
+};
+
 /// What the decoder needs to know about a film.
 struct ProbedFilm {
   Path file;
   FilmInfo info;
-  std::string decoder = {};  ///< empty: the usual one
+  std::string decoder = {};         ///< empty: the usual one
+  std::vector<KeyFrame> keys = {};  ///< in the order in which they are shown
 };
 
 std::string needs(const Path& file, const std::string& program) {
@@ -99,7 +107,7 @@ std::string probed(const Path& file, const std::vector<std::string>& question) {
   return answer->output;
 }
 
-/// Finds the first and the last time stamp of the frames.
+/// Finds the first and the last time stamp of the frames, and the key frames.
 void measure_times(ProbedFilm& film) {
   std::istringstream lines(
       probed(film.file, {"-select_streams", "V:0", "-show_entries",
@@ -108,12 +116,18 @@ void measure_times(ProbedFilm& film) {
   for (std::string line; std::getline(lines, line);) {
     const size_t comma = line.find(','), flags = line.rfind(',');
     if (comma == std::string::npos || line.find('D', flags) != std::string::npos) continue;
-    auto time = number_in(line);
-    if (!time) time = number_in(std::string_view(line).substr(comma + 1));
+    const auto shown = number_in(line),
+               decoded = number_in(std::string_view(line).substr(comma + 1));
+    const auto time = shown ? shown : decoded;
     if (!time) continue;
     first = std::min(first, *time);
     last = std::max(last, *time);
+    // Some formats are searched by the times at which frames are decoded. A key frame may be
+    // decoded before earlier frames are shown.
+    if (line.find('K', flags) != std::string::npos)
+      film.keys.push_back({*time, decoded ? std::min(*time, *decoded) : *time});
   }
+  std::ranges::sort(film.keys, {}, &KeyFrame::shown);
   if (!(first <= last)) fail(film.file, "the film has no frames");
   film.info.start = first;
   const double frames = std::round((last - first) * film.info.frames_per_second) + 1;
@@ -172,14 +186,18 @@ std::vector<std::string> decoding_command() {
 
 /// The command that decodes the frames from `first` on.
 std::vector<std::string> command_of(const ProbedFilm& film, int first) {
-  const std::string at = decimal(film.info.start + first / film.info.frames_per_second, 9);
+  const double start = film.info.start + first / film.info.frames_per_second;
+  const std::string at = decimal(start, 9);
   std::vector<std::string> words = decoding_command();
   if (!film.decoder.empty()) append(words, {"-c:v", film.decoder});
   // Time stamps stay those of the file. Decoding starts at the last key frame before the time, and
   // the filter fps leaves out what comes before it. So a stream from the middle of the film has the
   // same frames as one from its start, also where frames have different durations.
   append(words, {"-copyts"});
-  if (first > 0) append(words, {"-noaccurate_seek", "-seek_timestamp", "1", "-ss", at});
+  const auto after = std::ranges::upper_bound(film.keys, start, {}, &KeyFrame::shown);
+  if (first > 0 && after != film.keys.begin())
+    append(words, {"-noaccurate_seek", "-seek_timestamp", "1", "-ss",
+                   decimal(std::prev(after)->stored, 9)});
   append(words, {"-i", "file:" + film.file.string(), "-map", "0:V:0", "-vf",
                  "fps=fps=" + decimal(film.info.frames_per_second, 9) + ":start_time=" + at +
                      ":round=near," + kConversion,
