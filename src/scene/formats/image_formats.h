@@ -24,6 +24,9 @@ Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget&
 /// OpenRaster: the merged picture of all layers that the file contains.
 bool is_ora(const std::string& bytes);
 Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget& pixels);
+/// SVG: drawn as large as svg_document_of() says. Needs the program rsvg-convert.
+bool is_svg(const std::string& bytes);
+Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 /// BMP, TGA and PSD. None if the file has a different format.
 std::optional<Image> decode_plain(const std::string& bytes, const std::string& name,
                                   PixelBudget& pixels);

@@ -1,175 +1,39 @@
-// pugixml parses the file. PathReader parses the path data, which has a syntax of its own.
+// pugixml parses the file, and path_data_of the path data, which has a syntax of its own.
 #include "scene/formats/svg_path.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
 
 #include "core/error.h"
-#include "scene/budget.h"
+#include "scene/formats/path_data.h"
+#include "scene/formats/svg_document.h"
+#include "scene/formats/svg_styles.h"
 
 namespace holomorph {
 namespace {
 
-/// Reads path data command by command and collects the control points of each segment, subpath by
-/// subpath.
-class PathReader {
- public:
-  /// Lines of length zero are dropped unless `keeps_points` is true.
-  PathReader(const std::string& data, std::string name, bool keeps_points)
-      : data_(data), name_(std::move(name)), keeps_points_(keeps_points) {}
-
-  std::vector<std::vector<Points>> loops() {
-    while (skip_blanks()) read_command();
-    if (!started_) fail("the path is empty");
-    if (open_) finish_loop();
-    return std::move(loops_);
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::bad_input,
-                name_ + ": path data, character " + std::to_string(at_ + 1) + ": " + what);
-  }
-
-  bool skip_blanks() {
-    while (at_ < data_.size() &&
-           (std::isspace(static_cast<unsigned char>(data_[at_])) || data_[at_] == ','))
-      ++at_;
-    return at_ < data_.size();
-  }
-
-  bool number_follows() {
-    if (!skip_blanks()) return false;
-    const auto begins = [](char c) {
-      return std::isdigit(static_cast<unsigned char>(c)) || c == '.';
-    };
-    const bool is_signed = data_[at_] == '-' || data_[at_] == '+';
-    return begins(data_[at_]) || (is_signed && at_ + 1 < data_.size() && begins(data_[at_ + 1]));
-  }
-
-  double number() {
-    if (!number_follows()) fail("expected a number");
-    const char* from = data_.data() + at_ + (data_[at_] == '+');
-    double x = 0;
-    const auto [end, wrong] = std::from_chars(from, data_.data() + data_.size(), x);
-    if (wrong == std::errc::result_out_of_range) fail("the number is too large or too small");
-    if (wrong != std::errc{}) fail("not a number");
-    at_ = static_cast<size_t>(end - data_.data());
-    return x;
-  }
-
-  /// Reads a point. Lower-case commands give points relative to the current point.
-  Complex point(bool relative) {
-    const double x = number(), y = number();
-    return (relative ? here_ : Complex(0)) + Complex(x, y);
-  }
-
-  void read_command() {
-    const char letter = data_[at_++];
-    const bool relative = std::islower(static_cast<unsigned char>(letter));
-    const char command = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    if (command == 'Z' || command == 'M') last_ = command;
-    if (command == 'Z') {
-      if (open_) finish_loop();
-      here_ = start_;
-      return;
-    }
-    if (command == 'M') {
-      if (open_) finish_loop();
-      start_ = here_ = point(relative);
-      started_ = open_ = true;
-      while (number_follows()) line_to(point(relative));
-      return;
-    }
-    if (!started_) fail("a path must begin with M");
-    if (!open_) fail("a new subpath must begin with M");
-    do {
-      read_segment(command, relative);
-      last_ = command;
-    } while (number_follows());
-  }
-
-  void read_segment(char command, bool relative) {
-    const Complex before = here_;
-    switch (command) {
-      case 'L':
-        return line_to(point(relative));
-      case 'H':
-        return line_to({number() + (relative ? here_.real() : 0), here_.imag()});
-      case 'V':
-        return line_to({here_.real(), number() + (relative ? here_.imag() : 0)});
-      case 'C': {
-        const Complex a = point(relative), b = point(relative);
-        return curve_to({before, a, b}, point(relative), b);
-      }
-      case 'S': {
-        const Complex a = last_ == 'C' || last_ == 'S' ? 2.0 * here_ - control_ : here_;
-        const Complex b = point(relative);
-        return curve_to({before, a, b}, point(relative), b);
-      }
-      case 'Q': {
-        const Complex a = point(relative);
-        return curve_to({before, a}, point(relative), a);
-      }
-      case 'T': {
-        const Complex a = last_ == 'Q' || last_ == 'T' ? 2.0 * here_ - control_ : here_;
-        return curve_to({before, a}, point(relative), a);
-      }
-      case 'A':
-        fail("arcs are not supported; convert them to curves in the drawing program");
-      default:
-        --at_;
-        fail(std::string("'") + data_[at_] + "' is not a path command");
-    }
-  }
-
-  void line_to(Complex to) {
-    if (to != here_ || keeps_points_) segments_.push_back({here_});
-    here_ = to;
-  }
-
-  void curve_to(Points controls, Complex to, Complex control) {
-    segments_.push_back(std::move(controls));
-    control_ = control;
-    here_ = to;
-  }
-
-  /// Closes the loop with a line, unless it is closed already. A subpath without segments is only a
-  /// point and is left out.
-  void finish_loop() {
+/// The closed loops of a path, as the segments of a Cage. Lines of length zero are dropped unless
+/// `keeps_points`. A subpath without segments is only a point and is left out.
+std::vector<std::vector<Points>> loops_of(const std::string& text, const std::string& name,
+                                          bool keeps_points) {
+  const PathData path = path_data_of(text);
+  if (!path.problem.empty()) throw Error(ErrorKind::bad_input, name + ": " + path.problem);
+  std::vector<std::vector<Points>> loops;
+  for (const Subpath& subpath : path.subpaths) {
+    std::vector<Points> loop;
     double size = 0;
-    for (const Points& segment : segments_) size = std::max(size, std::abs(segment[0] - start_));
-    if (std::abs(here_ - start_) > 1e-9 * size) segments_.push_back({here_});
-    if (!segments_.empty() || loops_.empty()) loops_.push_back(std::move(segments_));
-    segments_.clear();
-    open_ = false;
-  }
-
-  const std::string& data_;
-  std::string name_;
-  size_t at_ = 0;
-  Complex start_, here_, control_;
-  char last_ = ' ';
-  bool keeps_points_, started_ = false, open_ = false;
-  std::vector<Points> segments_;            ///< of the current subpath
-  std::vector<std::vector<Points>> loops_;  ///< finished subpaths
-};
-
-/// Throws Error if groups are nested deeper than the budget allows.
-void check_levels(pugi::xml_document& document, const std::string& name) {
-  struct Deepest : pugi::xml_tree_walker {  // does not recurse
-    bool for_each(pugi::xml_node&) override {
-      levels = std::max(levels, depth());
-      return true;
+    for (const Points& segment : subpath.segments) {
+      if (segment.size() == 2 && segment[0] == segment[1] && !keeps_points) continue;
+      size = std::max(size, std::abs(segment[0] - subpath.start));
+      loop.push_back({segment.begin(), segment.end() - 1});
     }
-    int levels = 0;
-  } deepest;
-  document.traverse(deepest);
-  check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
+    if (std::abs(subpath.end() - subpath.start) > 1e-9 * size) loop.push_back({subpath.end()});
+    if (!loop.empty() || loops.empty()) loops.push_back(std::move(loop));
+  }
+  return loops;
 }
 
 /// The paths of a document in document order, except paths that are only definitions for other
@@ -181,8 +45,7 @@ std::vector<pugi::xml_node> paths_of(const pugi::xml_node& document) {
   while (!waiting.empty()) {  // no recursion: groups may be deep
     const pugi::xml_node node = waiting.back();
     waiting.pop_back();
-    std::string tag = node.name();
-    if (const size_t colon = tag.find(':'); colon != std::string::npos) tag.erase(0, colon + 1);
+    const std::string tag = local_name(node);
     if (tag == "path") paths.push_back(node);
     if (kUnseen.contains(tag)) continue;
     for (pugi::xml_node child = node.last_child(); child; child = child.previous_sibling())
@@ -233,11 +96,7 @@ void separate_handles(Cage& cage) {
 
 Cage cage_of_svg(const std::string& text, const std::string& name, double height, PathUse use) {
   static constexpr const char* kIds[] = {"rest", "pose", "outline"};
-  pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
-  if (!result)
-    throw Error(ErrorKind::bad_input, name + ": not an SVG file: " + result.description());
-  check_levels(document, name);
+  const pugi::xml_document document = xml_of(text, name);
   const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)]);
   if (!path) throw Error(ErrorKind::bad_input, name + ": the file has no path");
   for (pugi::xml_node node = path; node; node = node.parent())
@@ -249,7 +108,7 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
     const pugi::xml_node root = document.document_element();
     height = root.attribute("height").as_double(0);
   }
-  auto loops = PathReader(path.attribute("d").as_string(), name, use == PathUse::pose).loops();
+  auto loops = loops_of(path.attribute("d").as_string(), name, use == PathUse::pose);
   if (use == PathUse::outline && loops.size() > 1)
     throw Error(ErrorKind::bad_input,
                 name + ": the path has several subpaths; an outline is one closed loop");

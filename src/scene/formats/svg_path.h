@@ -15,11 +15,11 @@ enum class PathUse { rest, pose, outline };
 
 /// Reads a path of an SVG file as a cage in plane coordinates: y = height - y_svg. `height` is the
 /// height of the picture; if it is not positive, the drawing's height is used. Reads the path with
-/// the id "rest", "pose" or "outline", or the first path if there is none. The commands M L H V C S
-/// Q T Z are supported, absolute and relative. Each subpath must be closed, or it is
-/// closed with a line. The subpath with the largest area becomes the outer loop, and the others
-/// become holes; an outline has a single subpath. Throws Error{bad_input} with the reason and the
-/// position if the file has no path, or if the path has transforms, arcs or damaged numbers.
+/// the id "rest", "pose" or "outline", or the first path if there is none. Arcs become cubics. Each
+/// subpath must be closed, or it is closed with a line. The subpath with the largest area becomes
+/// the outer loop, and the others become holes; an outline has a single subpath. Throws
+/// Error{bad_input} with the reason and the position if the file has no path, or if the path has
+/// transforms or damaged numbers.
 Cage cage_of_svg(const std::string& text, const std::string& name, double height,
                  PathUse use = PathUse::rest);
 

@@ -1,0 +1,109 @@
+// The pieces are cubic Hermite interpolants. All pieces of all curves that are not close enough are
+// halved together, because maps are fast for many points at once.
+#include "core/maps/curve_images.h"
+
+#include <algorithm>
+
+#include "core/geometry/curve.h"
+
+namespace holomorph {
+namespace {
+
+constexpr int kMostHalvings = 12;
+
+/// A point of an image, and the derivative with respect to the curve's parameter.
+struct Sample {
+  Complex at, speed;
+};
+
+struct Piece {
+  size_t curve;
+  double from, to;
+  Sample start, end;
+
+  double middle() const { return 0.5 * (from + to); }
+  Points cubic() const {
+    const double arm = (to - from) / 3;
+    return {start.at, start.at + arm * start.speed, end.at - arm * end.speed, end.at};
+  }
+};
+
+Complex speed_of(const Points& curve, double t) {
+  Points differences;
+  for (size_t k = 0; k + 1 < curve.size(); ++k)
+    differences.push_back(static_cast<double>(curve.size() - 1) * (curve[k + 1] - curve[k]));
+  return bezier_point(differences, t);
+}
+
+/// The images of many points of curves.
+class Samples {
+ public:
+  Samples(const std::vector<Points>& curves, const PointValues& map) : curves_(curves), map_(map) {}
+
+  void ask(size_t curve, double t) {
+    points_.push_back(bezier_point(curves_[curve], t));
+    speeds_.push_back(speed_of(curves_[curve], t));
+  }
+  /// What was asked for since the last call.
+  std::vector<Sample> answers() {
+    const std::vector<PointMap::Value> values =
+        points_.empty() ? std::vector<PointMap::Value>() : map_(points_);
+    std::vector<Sample> samples;
+    for (size_t i = 0; i < values.size(); ++i)
+      samples.push_back(
+          {values[i].f, values[i].fz * speeds_[i] + values[i].fzbar * std::conj(speeds_[i])});
+    points_.clear();
+    speeds_.clear();
+    return samples;
+  }
+
+ private:
+  const std::vector<Points>& curves_;
+  const PointValues& map_;
+  Points points_, speeds_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
+                                              const PointValues& map, double tolerance) {
+  Samples samples(curves, map);
+  std::vector<Piece> open, finished;
+  for (size_t c = 0; c < curves.size(); ++c)
+    for (const double t : {0.0, 1.0}) samples.ask(c, t);
+  const std::vector<Sample> ends = samples.answers();
+  for (size_t c = 0; c < curves.size(); ++c)
+    open.push_back({c, 0, 1, ends[2 * c], ends[2 * c + 1]});
+  // The error of a cubic Hermite interpolant has the factor t^2 (1 - t)^2, whose largest value is
+  // at 1/2. At the other two points, it would be 9/16 of that.
+  constexpr double kInside[] = {0.25, 0.5, 0.75};
+  for (int halvings = 0; !open.empty(); ++halvings) {
+    for (const Piece& piece : open)
+      for (const double t : kInside)
+        samples.ask(piece.curve, piece.from + t * (piece.to - piece.from));
+    const std::vector<Sample> inside = samples.answers();
+    std::vector<Piece> halves;
+    for (size_t i = 0; i < open.size(); ++i) {
+      const Piece& piece = open[i];
+      const Points cubic = piece.cubic();
+      double off = 0;
+      for (size_t k = 0; k < 3; ++k)
+        off = std::max(off, std::abs(bezier_point(cubic, kInside[k]) - inside[3 * i + k].at));
+      if (off <= tolerance || halvings == kMostHalvings) {
+        finished.push_back(piece);
+        continue;
+      }
+      const Sample& middle = inside[3 * i + 1];
+      halves.push_back({piece.curve, piece.from, piece.middle(), piece.start, middle});
+      halves.push_back({piece.curve, piece.middle(), piece.to, middle, piece.end});
+    }
+    open = std::move(halves);
+  }
+  std::ranges::sort(finished, {},
+                    [](const Piece& piece) { return std::pair(piece.curve, piece.from); });
+  std::vector<std::vector<Points>> images(curves.size());
+  for (const Piece& piece : finished) images[piece.curve].push_back(piece.cubic());
+  return images;
+}
+
+}  // namespace holomorph

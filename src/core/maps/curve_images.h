@@ -1,0 +1,24 @@
+// The images of Bezier curves under a map, as cubics.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/maps/deformer.h"
+
+namespace holomorph {
+
+/// The values and derivatives of a map at many points.
+using PointValues = std::function<std::vector<PointMap::Value>(std::span<const Complex>)>;
+
+/// For each Bezier curve of degree 1 to 3, the control points of cubics that follow one another
+/// and are within `tolerance` of the curve's image. Their ends lie on the image and have its
+/// tangents, so that smooth curves stay smooth. If the map is affine, a curve has a single cubic,
+/// which is exact. Curves are halved until their pieces are close enough, at most 2^12 times; where
+/// the map jumps, the shortest pieces bridge the gap. `map` is called for many curves at once,
+/// about as often as the pieces are halved. Cost: three points for each piece that is tried.
+std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
+                                              const PointValues& map, double tolerance);
+
+}  // namespace holomorph

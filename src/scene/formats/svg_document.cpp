@@ -1,0 +1,163 @@
+// Drawing programs put namespaces into entities, which pugixml does not replace.
+#include "scene/formats/svg_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "core/geometry/curve.h"
+#include "scene/budget.h"
+#include "scene/formats/svg_styles.h"
+#include "system/text.h"
+
+namespace holomorph {
+namespace {
+
+/// Throws Error if groups are nested deeper than the budget allows.
+void check_levels(pugi::xml_document& document, const std::string& name) {
+  struct Deepest : pugi::xml_tree_walker {  // does not recurse
+    bool for_each(pugi::xml_node&) override {
+      levels = std::max(levels, depth());
+      return true;
+    }
+    int levels = 0;
+  } deepest;
+  document.traverse(deepest);
+  check_budget(&Budget::groups, deepest.levels, name + ": its groups have");
+}
+
+/// The text with entities that its document type declares replaced by their values. Values may not
+/// contain other entities, so the text cannot explode.
+std::string with_entities(const std::string& text, const std::string& name) {
+  constexpr size_t kLongest = size_t{256} << 20;
+  const size_t type = text.find("<!DOCTYPE");
+  if (type == std::string::npos) return text;
+  const size_t open = text.find_first_of("[>", type);
+  if (open == std::string::npos || text[open] == '>') return text;
+  const size_t close = std::min(text.find("]", open), text.size());
+  std::vector<std::pair<std::string, std::string>> entities;
+  for (size_t at = open; (at = text.find("<!ENTITY", at)) < close;) {
+    at += 8;
+    const size_t from = text.find_first_not_of(" \t\r\n", at);
+    const size_t to = text.find_first_of(" \t\r\n", from);
+    const size_t quote = text.find_first_of("\"'>", to);
+    if (quote >= close || text[quote] == '>') continue;
+    const size_t end = text.find(text[quote], quote + 1);
+    if (end >= close) break;
+    const std::string value = text.substr(quote + 1, end - quote - 1);
+    if (value.find_first_of("&<") == std::string::npos)
+      entities.emplace_back("&" + text.substr(from, to - from) + ";", value);
+    at = end;
+  }
+  std::string result = text.substr(0, type);
+  size_t at = text.find('>', close);
+  at = at == std::string::npos ? text.size() : at + 1;
+  while (at < text.size()) {
+    const size_t next = std::min(text.find('&', at), text.size());
+    result.append(text, at, next - at);
+    at = next;
+    if (at == text.size()) break;
+    const auto entity = std::ranges::find_if(entities, [&](const auto& each) {
+      return text.compare(at, each.first.size(), each.first) == 0;
+    });
+    result += entity == entities.end() ? "&" : entity->second;
+    at += entity == entities.end() ? 1 : entity->first.size();
+    if (result.size() > kLongest)
+      throw Error(ErrorKind::bad_input, name + ": its entities make it too long");
+  }
+  return result;
+}
+
+void include_extent(Box& box, const pugi::xml_node& node, const Affine& map,
+                    const Viewport& viewport) {
+  static const std::set<std::string> kUnseen{"defs",    "clipPath", "mask",         "marker",
+                                             "pattern", "symbol",   "foreignObject"};
+  if (kUnseen.contains(local_name(node))) return;
+  if (is_shape(node))
+    for (const Subpath& path : path_of_shape(node, viewport)) {
+      box.include(map(path.start));
+      for (const Points& segment : path.segments)
+        for (int k = 1; k <= 16; ++k) box.include(map(bezier_point(segment, k / 16.0)));
+    }
+  for (const pugi::xml_node& child : node.children())
+    include_extent(box, child, composed(map, transform_of(child)), viewport);
+}
+
+void set_attribute(pugi::xml_node node, const char* name, const std::string& value) {
+  node.remove_attribute(name);
+  node.append_attribute(name).set_value(value.c_str());
+}
+
+void set_viewbox(pugi::xml_node root, const Box& box) {
+  std::string text;
+  for (const double x : {box.left, box.bottom, box.width(), box.height()})
+    text += (text.empty() ? "" : " ") + decimal(x, 9);
+  set_attribute(root, "viewBox", text);
+}
+
+/// The drawing's own size: that of its attributes, or else of its viewBox or its content.
+/// Afterwards, the drawing has a viewBox.
+Viewport own_size(pugi::xml_node root) {
+  const auto width = length_of(root.attribute("width").as_string()),
+             height = length_of(root.attribute("height").as_string());
+  if (!viewbox_of(root)) {
+    if (width && height)
+      set_viewbox(root, {0, 0, *width, *height});
+    else
+      set_viewbox(root, extent_of(root, {}));
+  }
+  const auto box = viewbox_of(root);
+  if (width && height) return {*width, *height};
+  if (!box) return {0, 0};
+  if (width) return {*width, *width * box->height() / box->width()};
+  if (height) return {*height * box->width() / box->height(), *height};
+  return {box->width(), box->height()};
+}
+
+}  // namespace
+
+pugi::xml_document xml_of(const std::string& text, const std::string& name) {
+  pugi::xml_document document;
+  const std::string replaced = with_entities(text, name);
+  const pugi::xml_parse_result result = document.load_buffer(
+      replaced.data(), replaced.size(), pugi::parse_default | pugi::parse_ws_pcdata_single);
+  if (!result)
+    throw Error(ErrorKind::bad_input, name + ": not an SVG file: " + result.description());
+  check_levels(document, name);
+  return document;
+}
+
+Box extent_of(const pugi::xml_node& node, const Viewport& viewport) {
+  Box box;
+  include_extent(box, node, {}, viewport);
+  return box;
+}
+
+SvgDocument svg_document_of(const std::string& text, const std::string& name) {
+  constexpr double kShortest = 1024, kLongest = 4096;  // of the longer side, in pixels
+  SvgDocument document;
+  document.name = name;
+  document.xml = xml_of(text, name);
+  pugi::xml_node root = document.root();
+  if (local_name(root) != "svg") throw Error(ErrorKind::bad_input, name + ": not an SVG file");
+  document.ignores_rules = inline_style_sheets(root, name);
+  const Viewport size = own_size(root);
+  const double longer = std::max(size.width, size.height);
+  if (!(std::min(size.width, size.height) > 0) || !(longer < 1e9))
+    throw Error(ErrorKind::bad_input, name + ": the drawing is empty or has no size");
+  const double scale = std::clamp(longer, kShortest, kLongest) / longer;
+  document.width = size.width;
+  document.height = size.height;
+  document.columns = std::max(1, static_cast<int>(std::lround(scale * size.width)));
+  document.rows = std::max(1, static_cast<int>(std::lround(scale * size.height)));
+  set_attribute(root, "width", std::to_string(document.columns));
+  set_attribute(root, "height", std::to_string(document.rows));
+  const auto box = viewbox_of(root);
+  if (!box) throw Error(ErrorKind::bad_input, name + ": the drawing is empty or has no size");
+  document.viewport = {box->width(), box->height()};
+  document.placement = viewbox_map(root, 0, {double(document.columns), double(document.rows)});
+  return document;
+}
+
+}  // namespace holomorph

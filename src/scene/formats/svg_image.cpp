@@ -1,0 +1,61 @@
+// Draws SVG files with the program rsvg-convert, which reads no other files, because it gets the
+// drawing through a pipe.
+#include "core/clock.h"
+#include "core/error.h"
+#include "scene/formats/image_formats.h"
+#include "scene/formats/svg_document.h"
+#include "system/process.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kPatienceMs = 60000;
+
+struct Text final : pugi::xml_writer {
+  std::string text;
+  void write(const void* data, size_t size) override {
+    text.append(static_cast<const char*>(data), size);
+  }
+};
+
+}  // namespace
+
+bool is_svg(const std::string& bytes) {
+  constexpr size_t kFarthest = 1 << 16;  // behind comments and entities
+  const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  if (first == std::string::npos || bytes[first] != '<') return false;
+  const std::string_view start = std::string_view(bytes).substr(first, kFarthest);
+  return start.find("<svg") != std::string_view::npos ||
+         start.find("<svg:svg") != std::string_view::npos;
+}
+
+Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  SvgDocument document = svg_document_of(bytes, name);
+  const auto columns = static_cast<size_t>(document.columns),
+             rows = static_cast<size_t>(document.rows);
+  pixels.take(columns, rows, name);
+  pugi::xml_node root = document.root();
+  if (!root.attribute("xmlns") && std::string(root.name()) == "svg")
+    root.append_attribute("xmlns").set_value("http://www.w3.org/2000/svg");
+  Text text;
+  document.xml.save(text, "", pugi::format_raw);
+  if (!has_program("rsvg-convert"))
+    throw Error(ErrorKind::failed,
+                name +
+                    ": drawings need the program rsvg-convert, which is not installed; install "
+                    "the package librsvg2-bin");
+  const double start = now_ms();
+  const auto drawn = run_program({"rsvg-convert", "--format", "png", "--unlimited"}, text.text,
+                                 [&] { return now_ms() - start < kPatienceMs; });
+  if (!drawn)
+    throw Error(ErrorKind::failed, name + ": it takes more than a minute to draw this file");
+  if (drawn->status != 0 || !is_png(drawn->output))
+    throw Error(ErrorKind::bad_input, name + ": rsvg-convert cannot draw this SVG file");
+  PixelBudget again;
+  Image image = decode_png(drawn->output, name, again);
+  if (image.width != document.columns || image.height != document.rows)
+    throw Error(ErrorKind::failed, name + ": rsvg-convert drew this file in another size");
+  return image;
+}
+
+}  // namespace holomorph
