@@ -33,6 +33,13 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n\f";
+  const size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
+}
+
 std::string decimal(double value, int digits) {
   std::array<char, 400> text{};
   const auto [end, wrong] = std::to_chars(text.data(), text.data() + text.size(), value,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace holomorph {
 
@@ -11,6 +12,8 @@ std::string printable(const std::string& text);
 
 /// The text with ASCII letters in lower case, for extensions and searches.
 std::string lower_case(std::string text);
+/// The text without blanks and line ends around it.
+std::string trimmed(std::string_view text);
 /// A number in decimal notation with this many digits after the point, in any locale.
 std::string decimal(double value, int digits);
 /// Whether a text contains all of these words, ignoring case.

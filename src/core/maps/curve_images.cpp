@@ -9,8 +9,6 @@
 namespace holomorph {
 namespace {
 
-constexpr int kMostHalvings = 12;
-
 /// A point of an image, and the derivative with respect to the curve's parameter.
 struct Sample {
   Complex at, speed;
@@ -77,6 +75,7 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
   // The error of a cubic Hermite interpolant has the factor t^2 (1 - t)^2, whose largest value is
   // at 1/2. At the other two points, it would be 9/16 of that.
   constexpr double kInside[] = {0.25, 0.5, 0.75};
+  constexpr int kMostHalvings = 12;
   for (int halvings = 0; !open.empty(); ++halvings) {
     for (const Piece& piece : open)
       for (const double t : kInside)

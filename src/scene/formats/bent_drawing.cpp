@@ -6,7 +6,6 @@
 #include "scene/formats/bent_drawing.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,7 +13,7 @@
 
 #include "core/error.h"
 #include "core/geometry/curve.h"
-#include "scene/formats/image_formats.h"
+#include "scene/formats/path_writer.h"
 #include "scene/formats/svg_document.h"
 #include "scene/formats/svg_styles.h"
 
@@ -51,66 +50,6 @@ Affine average(const std::vector<PointMap::Value>& values, const Points& points)
   map.shift = image / n - map.direction(at / n);
   return map;
 }
-
-/// Numbers with as many digits as are visible.
-class PathWriter {
- public:
-  /// `unit` is the length in which `precision` counts.
-  PathWriter(const Affine& from_output, double precision) : map_(from_output) {
-    const double scale = std::abs(map_.linear) + std::abs(map_.anti);
-    digits_ = std::clamp(static_cast<int>(std::ceil(-std::log10(precision * scale))), 0, 12);
-  }
-
-  void move(Complex to) { command('M', {to}); }
-  void close() { text_ += 'Z'; }
-  /// A line if the cubic is straight, to within `flat`.
-  void curve(const Points& cubic, double flat) {
-    const Complex side = cubic[3] - cubic[0];
-    const double length = std::abs(side);
-    const auto is_flat = [&](Complex z, double least, double most) {
-      const Complex off = z - cubic[0];
-      const double along = dot(off, side);
-      return std::abs(cross(side, off)) <= flat * length && along >= least * length * length &&
-             along <= most * length * length;
-    };
-    if (length == 0 && cubic[1] == cubic[0] && cubic[2] == cubic[0])
-      command('L', {cubic[3]});
-    else if (is_flat(cubic[1], 0, 1) && is_flat(cubic[2], 0, 1))
-      command('L', {cubic[3]});
-    else
-      command('C', {cubic[1], cubic[2], cubic[3]});
-  }
-  std::string text() && { return std::move(text_); }
-
- private:
-  void command(char letter, std::initializer_list<Complex> points) {
-    text_ += letter;
-    bool first = true;
-    for (const Complex& z : points) {
-      const Complex w = map_(z);
-      for (const double x : {w.real(), w.imag()}) {
-        if (!first) text_ += ' ';
-        append(x);
-        first = false;
-      }
-    }
-  }
-  void append(double x) {
-    char number[400];
-    const auto [end, wrong] =
-        std::to_chars(number, number + sizeof number, x, std::chars_format::fixed, digits_);
-    std::string_view digits(number, static_cast<size_t>(end - number));
-    if (digits.find('.') != std::string_view::npos) {
-      while (digits.back() == '0') digits.remove_suffix(1);
-      if (digits.back() == '.') digits.remove_suffix(1);
-    }
-    text_ += digits == "-0" ? "0" : digits;
-  }
-
-  Affine map_;
-  int digits_ = 0;
-  std::string text_;
-};
 
 class Bender {
  public:
@@ -365,7 +304,8 @@ class Bender {
     const std::vector<Subpath> path = path_of_shape(node, place.viewport);
     if (!place.clips && depends_on_units(copy)) {
       within.frame = new_frame(copy, within.to_picture, place.frame);
-      const Box box = box_of_path(path);
+      Box box;
+      include(box, path);
       for (const char* paint : {"fill", "stroke"}) use_own_units(copy, paint, box);
       if (!inherited_property(copy, "marker-mid").empty() &&
           inherited_property(copy, "marker-mid") != "none")
@@ -375,16 +315,6 @@ class Bender {
     for (const pugi::xml_node& child : node.children())  // such as <title>
       if (child.type() == pugi::node_element) add(child, copy, within);
     add_curves(copy, path, within);
-  }
-
-  static Box box_of_path(const std::vector<Subpath>& path) {
-    Box box;
-    for (const Subpath& subpath : path) {
-      box.include(subpath.start);
-      for (const Points& segment : subpath.segments)
-        for (int k = 1; k <= 16; ++k) box.include(bezier_point(segment, k / 16.0));
-    }
-    return box;
   }
 
   void add_curves(pugi::xml_node copy, const std::vector<Subpath>& path, const Place& place) {
@@ -508,7 +438,7 @@ class Bender {
     const auto set = [&](const char* name, const std::string& otherwise) {
       const std::string text = attribute(name);
       const double x = length_of(text.empty() ? otherwise : text, 1).value_or(0);
-      own.append_attribute(name).set_value(x);
+      own.append_attribute(name).set_value(number_text(x).c_str());
     };
     if (kind == "linearGradient") {
       for (const char* name : {"x1", "y1", "y2"}) set(name, "0");
@@ -584,10 +514,11 @@ class Bender {
            {Complex(-kFar, -kFar), Complex(kFar, -kFar), Complex(kFar, kFar), Complex(-kFar, kFar)})
         box.include(to_frame(corner));
       mask.append_attribute("maskUnits").set_value("userSpaceOnUse");
-      mask.append_attribute("x").set_value(box.left);
-      mask.append_attribute("y").set_value(box.bottom);
-      mask.append_attribute("width").set_value(box.width());
-      mask.append_attribute("height").set_value(box.height());
+      for (const auto& [name, x] : {std::pair{"x", box.left},
+                                    {"y", box.bottom},
+                                    {"width", box.width()},
+                                    {"height", box.height()}})
+        mask.append_attribute(name).set_value(number_text(x).c_str());
     }
   }
 
@@ -627,10 +558,6 @@ class Bender {
 };
 
 }  // namespace
-
-bool is_drawing(const std::string& bytes) {
-  return is_svg(bytes);
-}
 
 BentDrawing bent_drawing(const std::string& svg, const std::string& name, const PointValues& map,
                          const BendingOptions& options) {

@@ -8,9 +8,6 @@
 
 namespace holomorph {
 
-/// Whether bytes are an SVG file.
-bool is_drawing(const std::string& bytes);
-
 /// What an SVG drawing becomes.
 struct BentDrawing {
   std::string group;                     ///< the element <g> with everything that is drawn
@@ -26,11 +23,11 @@ struct BendingOptions {
 };
 
 /// Bends a drawing. `map` takes the plane of the picture that stands for it (y up, in pixels) to
-/// another plane. Shapes and clipping paths become paths of cubics; see curve_images(). What is
-/// relative to a shape's own coordinates follows the map's average derivative over the shape:
-/// strokes, gradients, patterns and filters. So do texts and pictures as a whole. Copies (`use`)
-/// become groups. The coordinates have y down. Throws Error{bad_input} if this is not a drawing, or
-/// if it has more than a million elements with all copies.
+/// another plane; its values must be finite. Shapes and clipping paths become paths of cubics; see
+/// curve_images(). What is relative to a shape's own coordinates follows the map's average
+/// derivative over the shape: strokes, gradients, patterns and filters. So do texts and pictures as
+/// a whole. Copies (`use`) become groups. The coordinates have y down. Throws Error{bad_input} if
+/// this is not a drawing, or if it has more than a million elements with all copies.
 BentDrawing bent_drawing(const std::string& svg, const std::string& name, const PointValues& map,
                          const BendingOptions& options);
 

@@ -8,18 +8,13 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {
 
 constexpr size_t kMostVertices = 1000000;
 constexpr const char* kMaterial = "picture";
-
-/// The text without leading and trailing blanks. File names may contain blanks.
-std::string trimmed(std::string_view text) {
-  const size_t start = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
-  return start == std::string_view::npos ? "" : std::string(text.substr(start, end + 1 - start));
-}
 
 class ObjReader {
  public:

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <set>
 
 #include "core/error.h"
-#include "core/geometry/curve.h"
 #include "scene/budget.h"
 #include "scene/formats/svg_styles.h"
-#include "system/text.h"
 
 namespace holomorph {
 namespace {
@@ -36,7 +36,7 @@ std::string with_entities(const std::string& text, const std::string& name) {
   const size_t open = text.find_first_of("[>", type);
   if (open == std::string::npos || text[open] == '>') return text;
   const size_t close = std::min(text.find("]", open), text.size());
-  std::vector<std::pair<std::string, std::string>> entities;
+  std::map<std::string, std::string, std::less<>> entities;
   for (size_t at = open; (at = text.find("<!ENTITY", at)) < close;) {
     at += 8;
     const size_t from = text.find_first_not_of(" \t\r\n", at);
@@ -47,7 +47,7 @@ std::string with_entities(const std::string& text, const std::string& name) {
     if (end >= close) break;
     const std::string value = text.substr(quote + 1, end - quote - 1);
     if (value.find_first_of("&<") == std::string::npos)
-      entities.emplace_back("&" + text.substr(from, to - from) + ";", value);
+      entities.emplace(text.substr(from, to - from), value);
     at = end;
   }
   std::string result = text.substr(0, type);
@@ -58,11 +58,13 @@ std::string with_entities(const std::string& text, const std::string& name) {
     result.append(text, at, next - at);
     at = next;
     if (at == text.size()) break;
-    const auto entity = std::ranges::find_if(entities, [&](const auto& each) {
-      return text.compare(at, each.first.size(), each.first) == 0;
-    });
+    constexpr size_t kLongestName = 64;
+    const std::string_view name_on = std::string_view(text).substr(at + 1, kLongestName);
+    const size_t end = name_on.find(';');
+    const auto entity =
+        end == std::string_view::npos ? entities.end() : entities.find(name_on.substr(0, end));
     result += entity == entities.end() ? "&" : entity->second;
-    at += entity == entities.end() ? 1 : entity->first.size();
+    at += entity == entities.end() ? 1 : end + 2;
     if (result.size() > kLongest)
       throw Error(ErrorKind::bad_input, name + ": its entities make it too long");
   }
@@ -74,12 +76,7 @@ void include_extent(Box& box, const pugi::xml_node& node, const Affine& map,
   static const std::set<std::string> kUnseen{"defs",    "clipPath", "mask",         "marker",
                                              "pattern", "symbol",   "foreignObject"};
   if (kUnseen.contains(local_name(node))) return;
-  if (is_shape(node))
-    for (const Subpath& path : path_of_shape(node, viewport)) {
-      box.include(map(path.start));
-      for (const Points& segment : path.segments)
-        for (int k = 1; k <= 16; ++k) box.include(map(bezier_point(segment, k / 16.0)));
-    }
+  if (is_shape(node)) include(box, path_of_shape(node, viewport), map);
   for (const pugi::xml_node& child : node.children())
     include_extent(box, child, composed(map, transform_of(child)), viewport);
 }
@@ -92,7 +89,7 @@ void set_attribute(pugi::xml_node node, const char* name, const std::string& val
 void set_viewbox(pugi::xml_node root, const Box& box) {
   std::string text;
   for (const double x : {box.left, box.bottom, box.width(), box.height()})
-    text += (text.empty() ? "" : " ") + decimal(x, 9);
+    text += (text.empty() ? "" : " ") + number_text(x);
   set_attribute(root, "viewBox", text);
 }
 

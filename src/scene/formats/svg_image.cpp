@@ -9,8 +9,6 @@
 namespace holomorph {
 namespace {
 
-constexpr double kPatienceMs = 60000;
-
 struct Text final : pugi::xml_writer {
   std::string text;
   void write(const void* data, size_t size) override {
@@ -24,9 +22,7 @@ bool is_svg(const std::string& bytes) {
   constexpr size_t kFarthest = 1 << 16;  // behind comments and entities
   const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == std::string::npos || bytes[first] != '<') return false;
-  const std::string_view start = std::string_view(bytes).substr(first, kFarthest);
-  return start.find("<svg") != std::string_view::npos ||
-         start.find("<svg:svg") != std::string_view::npos;
+  return std::string_view(bytes).substr(first, kFarthest).find("<svg") != std::string_view::npos;
 }
 
 Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
@@ -44,6 +40,7 @@ Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget&
                 name +
                     ": drawings need the program rsvg-convert, which is not installed; install "
                     "the package librsvg2-bin");
+  constexpr double kPatienceMs = 60000;
   const double start = now_ms();
   const auto drawn = run_program({"rsvg-convert", "--format", "png", "--unlimited"}, text.text,
                                  [&] { return now_ms() - start < kPatienceMs; });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/geometry/curve.h"
 #include "scene/formats/svg_styles.h"
 
 namespace holomorph {
@@ -145,15 +146,16 @@ Affine transform_of(const pugi::xml_node& node) {
   return transform_of(property_of(node, "transform"));
 }
 
+std::string number_text(double x) {
+  char number[40];
+  const auto [end, wrong] =
+      std::to_chars(number, number + sizeof number, x, std::chars_format::general, 9);
+  return {number, end};
+}
+
 std::string matrix_text(const Affine& map) {
-  std::string text = "matrix(";
-  for (const double x : matrix_of(map)) {
-    char number[40];
-    const auto [end, wrong] =
-        std::to_chars(number, number + sizeof number, x, std::chars_format::general, 9);
-    if (text.back() != '(') text += ' ';
-    text.append(number, end);
-  }
+  std::string text;
+  for (const double x : matrix_of(map)) text += (text.empty() ? "matrix(" : " ") + number_text(x);
   return text + ")";
 }
 
@@ -221,6 +223,16 @@ std::vector<Subpath> path_of_shape(const pugi::xml_node& node, const Viewport& v
   if (!(width > 0) || !(height > 0)) return {};
   return {rectangle({x("x"), y("y"), x("x") + width, y("y") + height}, std::min(one, width / 2),
                     std::min(other, height / 2))};
+}
+
+void include(Box& box, const std::vector<Subpath>& path, const Affine& map) {
+  constexpr int kPoints = 16;  // of a segment
+  for (const Subpath& subpath : path) {
+    box.include(map(subpath.start));
+    for (const Points& segment : subpath.segments)
+      for (int k = 1; k <= kPoints; ++k)
+        box.include(map(bezier_point(segment, static_cast<double>(k) / kPoints)));
+  }
 }
 
 void become_path(pugi::xml_node shape, const std::string& data) {

@@ -26,6 +26,8 @@ std::optional<double> length_of(const std::string& text, std::optional<double> w
 Affine transform_of(const pugi::xml_node& node);
 /// The map of a list of transforms, such as "rotate(30) scale(2)".
 Affine transform_of(const std::string& text);
+/// A number with 9 significant digits, in any locale.
+std::string number_text(double x);
 /// The text matrix(...) of a map.
 std::string matrix_text(const Affine& map);
 
@@ -39,6 +41,8 @@ std::optional<Box> viewbox_of(const pugi::xml_node& node);
 bool is_shape(const pugi::xml_node& node);
 /// The outline of a shape in its own user units, y down, as far as it is not damaged.
 std::vector<Subpath> path_of_shape(const pugi::xml_node& node, const Viewport& viewport);
+/// Includes the points of a path, moved by a map, in a box.
+void include(Box& box, const std::vector<Subpath>& path, const Affine& map = {});
 /// Makes a path of a shape, without its attributes of other shapes.
 void become_path(pugi::xml_node shape, const std::string& data);
 

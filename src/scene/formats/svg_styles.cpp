@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "core/error.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {
 
 using Declarations = std::vector<std::pair<std::string, std::string>>;
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n\f";
-  const size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
-}
 
 /// The parts of a text between separators that are not in quotes or parentheses.
 std::vector<std::string> parts_of(std::string_view text, char separator) {

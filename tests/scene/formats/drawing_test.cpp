@@ -137,6 +137,21 @@ TEST_CASE("What cannot be bent is named, and mistakes are explained") {
   CHECK(losses("<g id='a'><use href='#a'/></g>").empty());
 }
 
+TEST_CASE("Many entities are replaced in linear time") {
+  std::string type, path = "M0 0";
+  for (int k = 0; k < 20000; ++k) {
+    const std::string name = "e" + std::to_string(k);
+    type += "<!ENTITY " + name + " 'h1'>";
+    path += "&" + name + ";&lt;";
+  }
+  const std::string text = "<!DOCTYPE svg [" + type + "]><svg width='9' height='9'><title>" + path +
+                           "</title><path d='M0 0&e19999;v1'/></svg>";
+  const BentDrawing bent = bent_drawing(text, "d.svg", identity, {});
+  CHECK(bent.group.find("h1&lt;h1") != std::string::npos);
+  CHECK(bent.group.find("M0 1024L113.778 1024L113.778 1137.778") == std::string::npos);
+  CHECK(bent.group.find("d=\"M0 -1024L") != std::string::npos);
+}
+
 TEST_CASE("Arcs are within 5e-6 of the ellipse") {
   const PathData path = path_data_of("M10 20a30 15 40 0150 9zl5 5");
   REQUIRE(path.problem.empty());
