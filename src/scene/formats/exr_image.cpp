@@ -4,8 +4,10 @@
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfCompression.h>
+#include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfVersion.h>
@@ -107,10 +109,10 @@ Imath::M33f to_linear_srgb(const Imf::Chromaticities& from) {
          part(Imf::XYZtoRGB(srgb, 1));
 }
 
-/// The sample, or the nearest number; 0 for NaN.
-float finite(half sample) {
-  const float value = sample, most = HALF_MAX;
-  return value == value ? std::clamp(value, -most, most) : 0;
+/// The sample, or the nearest number up to that of a half; 0 for NaN.
+float finite(float sample) {
+  const float most = HALF_MAX;
+  return sample == sample ? std::clamp(sample, -most, most) : 0;
 }
 
 std::uint8_t srgb_byte(float linear) {
@@ -119,30 +121,94 @@ std::uint8_t srgb_byte(float linear) {
   return static_cast<std::uint8_t>(std::lround(255 * value));
 }
 
+struct Sample {
+  float r = 0, g = 0, b = 0, a = 1;
+};
+
+/// Reads rows of a file. Samples stored as floats keep their accuracy.
+class Rows {
+ public:
+  Rows(BytesStream& stream, const std::string& name) : file_(stream) {
+    const Imf::ChannelList& channels = file_.header().channels();
+    const auto has = [&](const char* channel) { return channels.findChannel(channel) != nullptr; };
+    const bool colors = has("R") || has("G") || has("B");
+    if (!colors && !has("Y"))
+      throw Error(ErrorKind::bad_input,
+                  name + ": the OpenEXR file has no channels R, G, B or Y in its first part");
+    const Imath::Box2i& stored = file_.header().dataWindow();
+    row_.resize(static_cast<size_t>(std::int64_t{stored.max.x} - stored.min.x + 1));
+    left_ = stored.min.x;
+    if (!colors && (has("RY") || has("BY"))) {
+      // The library interpolates colors that are stored for every other pixel, as halves.
+      stream.seekg(0);
+      converted_ = std::make_unique<Imf::RgbaInputFile>(stream);
+      halves_.resize(row_.size());
+      return;
+    }
+    gray_ = !colors;
+    insert(gray_ ? "Y" : "R", &Sample::r, 0);
+    if (!gray_) {
+      insert("G", &Sample::g, 0);
+      insert("B", &Sample::b, 0);
+    }
+    insert("A", &Sample::a, 1);
+    file_.setFrameBuffer(buffer_);
+  }
+
+  const Imf::Header& header() const { return file_.header(); }
+
+  /// The samples of row y, from the left of the data window.
+  const std::vector<Sample>& row(int y) {
+    if (converted_) {
+      converted_->setFrameBuffer(halves_.data() - left_, 1, 0);
+      converted_->readPixels(y);
+      for (size_t i = 0; i < row_.size(); ++i)
+        row_[i] = {halves_[i].r, halves_[i].g, halves_[i].b, halves_[i].a};
+      return row_;
+    }
+    file_.readPixels(y);
+    if (gray_)
+      for (Sample& sample : row_) sample.g = sample.b = sample.r;
+    return row_;
+  }
+
+ private:
+  void insert(const char* channel, float Sample::*place, double missing) {
+    char* base = reinterpret_cast<char*>(&(row_.front().*place));
+    buffer_.insert(channel, Imf::Slice(Imf::FLOAT,
+                                       base - std::ptrdiff_t{left_} *
+                                                  static_cast<std::ptrdiff_t>(sizeof(Sample)),
+                                       sizeof(Sample), 0, 1, 1, missing));
+  }
+
+  Imf::InputFile file_;
+  std::unique_ptr<Imf::RgbaInputFile> converted_;
+  Imf::FrameBuffer buffer_;
+  std::vector<Sample> row_;
+  std::vector<Imf::Rgba> halves_;
+  int left_ = 0;
+  bool gray_ = false;
+};
+
 /// The display window of a file, transparent where it has no pixels.
-Image read_display(Imf::RgbaInputFile& file, const std::string& name, PixelBudget& pixels) {
-  const Imath::Box2i shown = file.displayWindow(), stored = file.dataWindow();
-  if ((file.channels() & (Imf::WRITE_RGB | Imf::WRITE_YC)) == 0)
-    throw Error(ErrorKind::bad_input,
-                name + ": the OpenEXR file has no channels R, G, B or Y in its first part");
+Image read_display(Rows& rows, const std::string& name, PixelBudget& pixels) {
+  const Imath::Box2i shown = rows.header().displayWindow(), stored = rows.header().dataWindow();
   const auto side = [](int low, int high) {
     return static_cast<size_t>(std::max<std::int64_t>(std::int64_t{high} - low + 1, 0));
   };
   pixels.take(side(shown.min.x, shown.max.x), side(shown.min.y, shown.max.y), name);
   Image image(shown.max.x - shown.min.x + 1, shown.max.y - shown.min.y + 1);
-  const bool is_srgb = !Imf::hasChromaticities(file.header());
+  const bool is_srgb = !Imf::hasChromaticities(rows.header());
   const Imath::M33f matrix =
-      is_srgb ? Imath::M33f() : to_linear_srgb(Imf::chromaticities(file.header()));
-  std::vector<Imf::Rgba> row(side(stored.min.x, stored.max.x));
+      is_srgb ? Imath::M33f() : to_linear_srgb(Imf::chromaticities(rows.header()));
   const int left = std::max(shown.min.x, stored.min.x), right = std::min(shown.max.x, stored.max.x);
   for (int y = std::max(shown.min.y, stored.min.y); y <= std::min(shown.max.y, stored.max.y); ++y) {
-    file.setFrameBuffer(row.data() - stored.min.x, 1, 0);
-    file.readPixels(y);
+    const std::vector<Sample>& row = rows.row(y);
     for (int x = left; x <= right; ++x) {
-      const Imf::Rgba& pixel = row[static_cast<size_t>(x - stored.min.x)];
-      const float alpha = pixel.a > 0 ? std::min(static_cast<float>(pixel.a), 1.0f) : 0;
+      const Sample& sample = row[static_cast<size_t>(x - stored.min.x)];
+      const float alpha = sample.a > 0 ? std::min(sample.a, 1.0f) : 0;
       if (alpha == 0) continue;
-      Imath::V3f color(finite(pixel.r), finite(pixel.g), finite(pixel.b));
+      Imath::V3f color(finite(sample.r), finite(sample.g), finite(sample.b));
       color /= alpha;
       if (!is_srgb) color = color * matrix;
       std::uint8_t* out = image.at(x - shown.min.x, y - shown.min.y);
@@ -170,8 +236,8 @@ Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget&
   try {
     check_memory(bytes, name);
     BytesStream stream(bytes, name);
-    Imf::RgbaInputFile file(stream);
-    return read_display(file, name, pixels);
+    Rows rows(stream, name);
+    return read_display(rows, name, pixels);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
