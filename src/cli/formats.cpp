@@ -71,11 +71,13 @@ std::vector<Row> rows() {
   std::vector<std::string> known;
   for (const FileKind& kind : file_kinds()) {
     std::vector<std::string> writes = written_to(kind.extensions[0]);
-    if (kind.content == FileContent::scene || kind.content == FileContent::points)
-      writes.insert(writes.begin(), text_of(kind.content));
+    std::vector<std::string> opened;
+    for (const FileContent content : kind.contents) opened.push_back(text_of(content));
+    if (is_one(kind, FileContent::scene) || is_one(kind, FileContent::points))
+      writes.insert(writes.begin(), opened[0]);
     const bool layered = may_have_layers("a" + kind.extensions[0]);
     rows.push_back({joined(kind.extensions, " "),
-                    layered ? "a picture with its layers" : text_of(kind.content),
+                    layered ? "a picture with its layers" : joined(opened, "; "),
                     joined(writes, "; ")});
     known.insert(known.end(), kind.extensions.begin(), kind.extensions.end());
   }

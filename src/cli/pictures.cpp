@@ -1,4 +1,5 @@
 // The commands render and export, which write a scene as pictures, films and other formats.
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/commands.h"
@@ -154,6 +155,14 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 
+/// Such as ", 2 of them drawings"; empty for formats of pixels.
+std::string drawings_text(const LayeredPicture& picture, const LayeredFormat& format) {
+  if (!format.keeps_drawings) return "";
+  const auto count = std::ranges::count_if(
+      picture.layers, [](const DrawnLayer& layer) { return !layer.drawing.empty(); });
+  return ", " + std::to_string(count) + " of them " + (count == 1 ? "a drawing" : "drawings");
+}
+
 void export_layers(const LoadedScene& loaded, const ExportCommand& command,
                    const LayeredFormat& format) {
   PictureOptions options;
@@ -165,12 +174,16 @@ void export_layers(const LoadedScene& loaded, const ExportCommand& command,
   std::string bytes;
   {
     const Progress progress("export");
-    picture = layered_picture_of(loaded.scene, loaded.image(), options, loaded.pictures);
+    picture = layered_picture_of(loaded.scene, loaded.image(), options, loaded.pictures,
+                                 format.keeps_drawings);
     bytes = format.encode(picture);
   }
   write_result(command.out, bytes);
-  std::fprintf(stderr, "%s: %zu layers of %d x %d pixels\n", shown_output(command.out).c_str(),
-               picture.layers.size(), picture.merged.width, picture.merged.height);
+  for (const std::string& loss : picture.losses)
+    std::fprintf(stderr, "holomorph: %s\n", printable(loss).c_str());
+  std::fprintf(stderr, "%s: %zu layers of %d x %d pixels%s\n", shown_output(command.out).c_str(),
+               picture.layers.size(), picture.merged.width, picture.merged.height,
+               drawings_text(picture, format).c_str());
 }
 
 /// Throws Error for options that the format does not support.
@@ -262,7 +275,7 @@ void run(const ExportCommand& command) {
   if (known.st_map) return export_st_maps(loaded, command);
   check_out(command.out, command.force, command.scene, loaded);
   if (format == "textured") return export_textured(loaded, command);
-  if (const LayeredFormat* layered = layered_format_of("a." + format))
+  if (const LayeredFormat* layered = layered_format_named(format))
     return export_layers(loaded, command, *layered);
   if (known.film) return export_film(loaded, command);
   const std::string bytes = exported(loaded, command);

@@ -83,10 +83,12 @@ const std::vector<ExportFormat>& export_formats() {
       formats.push_back(std::move(meshes));
     }
     for (const LayeredFormat& layered : layered_formats())
-      formats.push_back({.id = layered.extension.substr(1),
+      formats.push_back({.id = layered.id,
                          .label = layered.label,
                          .extensions = {layered.extension},
-                         .writes = "the posed layers",
+                         .writes = layered.keeps_drawings
+                                       ? "the posed layers; drawings stay drawings"
+                                       : "the posed layers",
                          .scale = true,
                          .crop = true,
                          .time = true});

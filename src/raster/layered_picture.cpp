@@ -6,6 +6,7 @@
 #include <set>
 
 #include "raster/compose.h"
+#include "raster/layer_drawing.h"
 #include "scene/layers.h"
 
 namespace holomorph {
@@ -25,10 +26,97 @@ DrawnLayer on_canvas(const RasterResult& drawn, const RasterResult& canvas, doub
   return layer;
 }
 
+/// Draws the layers of a scene on the canvas of their merged picture.
+class LayerDrawer {
+ public:
+  LayerDrawer(const Scene& scene, const PictureOptions& options, PictureMaker& maker,
+              const RasterResult& canvas, Pictures drawings)
+      : scene_(scene),
+        options_(options),
+        maker_(maker),
+        canvas_(canvas),
+        drawings_(std::move(drawings)) {}
+
+  /// A layer as it is bent, with its ink. None if it has no picture.
+  std::optional<DrawnLayer> layer(size_t i) {
+    const Layer& it = *scene_.layers[i];
+    std::optional<DrawnLayer> drawn;
+    if (const auto text = drawings_.drawing(it)) {
+      drawn = of_drawing(i, *text, "layer-", true);
+    } else if (const auto pixels = maker_.layer(i, options_)) {
+      drawn = on_canvas(*pixels, canvas_, options_.scale, title_of_layer(scene_, i));
+    }
+    if (!drawn) return drawn;
+    drawn->visible = it.visible;
+    drawn->opacity = it.opacity;
+    drawn->blending = it.blending;
+    return drawn;
+  }
+
+  /// The pictures as they are at rest, as the background. Drawings stay drawings if there are any.
+  std::vector<DrawnLayer> originals() {
+    std::vector<DrawnLayer> all;
+    const bool any = std::ranges::any_of(scene_.layers, [&](const SharedLayer& layer) {
+      return drawings_.drawing(*layer) != nullptr;
+    });
+    if (!any) {
+      if (const auto original = maker_.originals(options_))
+        all.push_back(on_canvas(*original, canvas_, options_.scale, "Original"));
+      return all;
+    }
+    for (size_t i = 0; i < scene_.layers.size(); ++i) {
+      if (!maker_.draws(i)) continue;
+      const auto text = drawings_.drawing(*scene_.layers[i]);
+      if (text)
+        all.push_back(of_drawing(i, *text, "original-", false));
+      else if (const auto pixels = maker_.original(i, options_))
+        all.push_back(on_canvas(*pixels, canvas_, options_.scale, ""));
+      else
+        continue;
+      all.back().name = "Original of " + title_of_layer(scene_, i);
+    }
+    return all;
+  }
+
+  std::vector<std::string> losses() && { return std::move(losses_); }
+
+ private:
+  DrawnLayer of_drawing(size_t i, const std::string& text, const std::string& prefix, bool bent) {
+    const Layer& it = *scene_.layers[i];
+    const Picture* picture = drawings_.find(*it.image);
+    const SourceDrawing source{text, it.image->file, *picture->image};
+    const Similarity to_canvas{options_.scale, canvas_.corner, 0};
+    DrawingPlace place{to_canvas, static_cast<double>(canvas_.image.height),
+                       prefix + std::to_string(i + 1) + "-"};
+    DrawnLayer drawn;
+    drawn.name = title_of_layer(scene_, i);
+    std::vector<std::string> losses;
+    if (bent) {
+      place.to_canvas = composed(to_canvas, maker_.placement(i, options_.time));
+      drawn.drawing = layer_drawing(source, it.deformation, scene_.animation.linear_blend,
+                                    options_.time, place, losses);
+      if (it.blending == Blending::add)
+        losses.push_back("its blending mode, add, is only shown by web browsers");
+      for (const std::string& loss : losses) losses_.push_back(drawn.name + ": " + loss);
+    } else {
+      drawn.drawing = placed_drawing(source, place, losses);
+    }
+    return drawn;
+  }
+
+  const Scene& scene_;
+  const PictureOptions& options_;
+  PictureMaker& maker_;
+  const RasterResult& canvas_;
+  Pictures drawings_;  ///< only of drawings that stay drawings
+  std::vector<std::string> losses_;
+};
+
 }  // namespace
 
 LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
-                                  const PictureOptions& asked, const Pictures& other_pictures) {
+                                  const PictureOptions& asked, const Pictures& other_pictures,
+                                  bool keeps_drawings) {
   PictureOptions options = asked;
   options.view = View::image;  // the other views show one layer
   PictureMaker maker(scene, source, other_pictures);
@@ -36,23 +124,19 @@ LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
   LayeredPicture picture;
   picture.merged = canvas.image;
   if (scene.background.fill == Background::Fill::color) picture.background = scene.background.color;
-  if (scene.background.fill == Background::Fill::original)
-    if (const auto original = maker.originals(options))
-      picture.layers.push_back(on_canvas(*original, canvas, options.scale, "Original"));
+  LayerDrawer drawer(scene, options, maker, canvas, keeps_drawings ? other_pictures : Pictures());
+  if (scene.background.fill == Background::Fill::original) picture.layers = drawer.originals();
   std::set<size_t> added_layers;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
-    const Layer& layer = *scene.layers[i];
     const std::optional<size_t> base = clip_base(scene, i);
-    const std::optional<RasterResult> drawn = maker.layer(i, options);
-    if (!drawn || (base && !added_layers.contains(*base))) continue;
+    if (base && !added_layers.contains(*base)) continue;
+    std::optional<DrawnLayer> drawn = drawer.layer(i);
+    if (!drawn) continue;
     added_layers.insert(i);
-    DrawnLayer& added = picture.layers.emplace_back(
-        on_canvas(*drawn, canvas, options.scale, title_of_layer(scene, i)));
-    added.visible = layer.visible;
-    added.opacity = layer.opacity;
-    added.blending = layer.blending;
-    added.clipped = base.has_value();
+    drawn->clipped = base.has_value();
+    picture.layers.push_back(std::move(*drawn));
   }
+  picture.losses = std::move(drawer).losses();
   return picture;
 }
 

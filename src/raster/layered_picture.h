@@ -8,8 +8,10 @@ namespace holomorph {
 
 /// The posed layers of a scene, hidden ones too, and the picture that they make together. The
 /// original pictures, if they are the background, become the lowest layer. Arguments and errors are
-/// those of picture_of(). The view in `options` is ignored.
+/// those of picture_of(). The view in `options` is ignored. If `keeps_drawings` is set, layers of
+/// SVG files in `other_pictures` are bent drawings; see layer_drawing().
 LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
-                                  const PictureOptions& options, const Pictures& other_pictures);
+                                  const PictureOptions& options, const Pictures& other_pictures,
+                                  bool keeps_drawings = false);
 
 }  // namespace holomorph

@@ -277,11 +277,17 @@ std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOpti
   return layers_[number]->picture(frame.options, frame.top, placement(number, options.time));
 }
 
-std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) const {
+std::optional<RasterResult> PictureMaker::original(size_t number,
+                                                   const PictureOptions& options) const {
+  if (!layers_[number]->source()) return {};
   const Frame frame = frame_of(options);
+  return layers_[number]->original(frame.options, frame.top);
+}
+
+std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) const {
   Composition all(options.scale);
   for (size_t i = 0; i < layers_.size(); ++i)
-    if (layers_[i]->source() && draws(i)) all.add(layers_[i]->original(frame.options, frame.top));
+    if (auto drawn = draws(i) ? original(i, options) : std::nullopt) all.add(std::move(*drawn));
   return all.empty() ? std::nullopt : std::optional(std::move(all).result());
 }
 

@@ -44,6 +44,8 @@ class PictureMaker {
   /// Shows another picture, of any size, in the rectangle of the edited layer's picture, and stops
   /// its film. It must stay alive until the next call.
   void show(const Image& picture);
+  /// The undeformed picture of one layer; none if it has no picture.
+  std::optional<RasterResult> original(size_t number, const PictureOptions& options) const;
   /// The undeformed pictures of the visible layers; none if there are none.
   std::optional<RasterResult> originals(const PictureOptions& options) const;
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
@@ -53,6 +55,11 @@ class PictureMaker {
   std::optional<Box> motion_region(const std::function<bool()>& keep_going = [] { return true; });
   /// The rectangle of the lowest visible picture, to which `crop` crops; empty if there is none.
   Box rectangle() const;
+  /// Whether a picture of the scene shows a layer: it is visible, and so is the one to which it is
+  /// clipped.
+  bool draws(size_t layer) const;
+  /// Where the plane of a layer lies in the scene's plane.
+  Similarity placement(size_t layer, const std::optional<double>& time);
 
  private:
   class LayerMaker;
@@ -62,9 +69,6 @@ class PictureMaker {
     double top = 0;          ///< the upper edge of the pictures, at which rows of pixels start
   };
   Frame frame_of(const PictureOptions& options) const;
-  bool draws(size_t layer) const;
-  /// Where the plane of a layer lies in the scene's plane.
-  Similarity placement(size_t layer, const std::optional<double>& time);
   std::vector<MotionPart> motion_parts(size_t layer);
 
   const Scene& scene_;

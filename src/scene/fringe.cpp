@@ -28,9 +28,10 @@ int largest_alpha(const Image& picture) {
   return largest;
 }
 
-/// The box of the faint pixels outside a polygon, in the plane. Empty if there are none, or if
-/// there are solid ones.
-Box faint_box(PolygonView polygon, const Image& picture, const std::function<bool()>& keep_going) {
+/// The box of the faint pixels outside a polygon, in the plane. None if there are solid ones, or if
+/// `keep_going` returns false.
+std::optional<Box> faint_box(PolygonView polygon, const Image& picture,
+                             const std::function<bool()>& keep_going) {
   std::vector<std::pair<Complex, Complex>> edges;
   polygon.for_each_edge([&](Index, Complex a, Complex b) { edges.emplace_back(a, b); });
   const int solid = (largest_alpha(picture) + 1) / 2;
@@ -38,7 +39,7 @@ Box faint_box(PolygonView polygon, const Image& picture, const std::function<boo
   Box box;
   std::vector<double> crossings;
   for (int row = 0; row < picture.height; ++row) {
-    if (!keep_going()) return {};
+    if (!keep_going()) return std::nullopt;
     const double y = picture.height - row - 0.5;
     crossings.clear();
     for (const auto& [a, b] : edges)
@@ -55,7 +56,8 @@ Box faint_box(PolygonView polygon, const Image& picture, const std::function<boo
     for (size_t i = 0; i < crossings.size(); i += 2) {
       for (int c = first, end = column(crossings[i]); c < end; ++c) {
         const int alpha = picture.at(c, row)[3];
-        if (alpha >= solid && nearest_on_polygon(polygon, {c + 0.5, y}).distance > reach) return {};
+        if (alpha >= solid && nearest_on_polygon(polygon, {c + 0.5, y}).distance > reach)
+          return std::nullopt;
         if (alpha > 0) box.include({c + 0.5, y});
       }
       first = i + 1 < crossings.size() ? column(crossings[i + 1]) : picture.width;
@@ -141,14 +143,18 @@ Points Fringe::positions(std::span<const Complex> f) const {
   return at;
 }
 
+bool is_cut_off(const Mesh& mesh, const Image& picture) {
+  return !faint_box(boundary_of(mesh), picture, [] { return true; });
+}
+
 std::shared_ptr<const Fringe> fringe_of(const Mesh& mesh, const Image& picture,
                                         const std::function<bool()>& keep_going) {
   const Polygon boundary = boundary_of(mesh);
-  const Box faint = faint_box(boundary, picture, keep_going);
-  if (faint.empty()) return nullptr;
+  const std::optional<Box> faint = faint_box(boundary, picture, keep_going);
+  if (!faint || faint->empty()) return nullptr;
   Box outer = box_of(boundary.points);
-  outer.include({faint.left, faint.bottom});
-  outer.include({faint.right, faint.top});
+  outer.include({faint->left, faint->bottom});
+  outer.include({faint->right, faint->top});
   const Points frame{{outer.left - kMargin, outer.bottom - kMargin},
                      {outer.right + kMargin, outer.bottom - kMargin},
                      {outer.right + kMargin, outer.top + kMargin},

@@ -3,6 +3,7 @@
 
 #include "scene/clips.h"
 #include "scene/formats/file_kinds.h"
+#include "scene/formats/image_formats.h"
 #include "scene/formats/layered.h"
 #include "scene/formats/numbered_frames.h"
 
@@ -45,7 +46,9 @@ Picture PictureFiles::picture(const ImageReference& reference) {
   }
   Image image = reference.entry.empty() ? decode_image(file.bytes, name, pixels_)
                                         : decode_layer(file.bytes, reference.entry, name, pixels_);
-  return {std::make_shared<const Image>(std::move(image)), file.sha256, file.changed};
+  Picture picture{std::make_shared<const Image>(std::move(image)), file.sha256, file.changed};
+  if (is_svg(file.bytes)) picture.drawing = std::make_shared<const std::string>(file.bytes);
+  return picture;
 }
 
 ImageReference reference_in(const Path& file, const std::string& entry) {
@@ -74,6 +77,11 @@ std::shared_ptr<const Image> Pictures::still(const Layer& layer) const {
 std::shared_ptr<Footage> Pictures::footage(const Layer& layer) const {
   const Picture* found = clip_of(layer) ? find(*layer.image) : nullptr;
   return found ? found->footage : nullptr;
+}
+
+std::shared_ptr<const std::string> Pictures::drawing(const Layer& layer) const {
+  const Picture* found = layer.image ? find(*layer.image) : nullptr;
+  return found ? found->drawing : nullptr;
 }
 
 std::shared_ptr<const Image> Pictures::shared(const Layer& layer) const {

@@ -14,10 +14,11 @@ namespace holomorph {
 
 /// A picture and the properties of its file.
 struct Picture {
-  std::shared_ptr<const Image> image;            ///< of a film, its first frame
-  std::string sha256;                            ///< as in ImageReference
-  std::filesystem::file_time_type changed = {};  ///< the file's modification time
-  std::shared_ptr<Footage> footage = {};         ///< if the picture moves
+  std::shared_ptr<const Image> image;               ///< of a film, its first frame
+  std::string sha256;                               ///< as in ImageReference
+  std::filesystem::file_time_type changed = {};     ///< the file's modification time
+  std::shared_ptr<Footage> footage = {};            ///< if the picture moves
+  std::shared_ptr<const std::string> drawing = {};  ///< the text of an SVG file
 };
 
 /// Reads the pictures named by references. A file named by several references is read once.
@@ -64,6 +65,8 @@ class Pictures {
   std::shared_ptr<const Image> still(const Layer& layer) const;
   /// The film of a layer whose picture moves; null for all others.
   std::shared_ptr<Footage> footage(const Layer& layer) const;
+  /// The text of a layer's SVG file; null if its picture is not a drawing.
+  std::shared_ptr<const std::string> drawing(const Layer& layer) const;
   /// Makes a frame of a layer's film the picture of this layer.
   void show_frame(const Layer& layer, std::shared_ptr<const Image> frame);
   /// Does so for all films of a scene, with their frames at a time. Throws Error.

@@ -87,17 +87,7 @@ FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,
     return {*drawn, std::move(f)};
   }
   const auto values_at = [&](std::span<const Complex> points) {
-    constexpr size_t kBlock = 256;
-    const int blocks = static_cast<int>((points.size() + kBlock - 1) / kBlock);
-    std::vector<PointMap::Value> values(points.size());
-    const auto evaluate = [&](int block) {
-      const size_t first = static_cast<size_t>(block) * kBlock;
-      const auto some =
-          map->values_at(points.subspan(first, std::min(kBlock, points.size() - first)));
-      std::ranges::copy(some, values.begin() + static_cast<long>(first));
-    };
-    parallel_for(blocks, evaluate, [&](int) { keep_going(); });
-    return values;
+    return values_on_all_cores(*map, points, keep_going);
   };
   return fine_map(prepared_->rest.cage, *drawn, tolerance, values_at);
 }
@@ -117,15 +107,15 @@ std::vector<std::vector<Preimage>> TimedMap::Inverse::at(
   return found;
 }
 
+std::unique_ptr<PointMap> TimedMap::point_map(const TimedFrame& frame) const {
+  if (frame.pose) return prepared_->deformer->point_map(*frame.pose);
+  return std::make_unique<MeshPointMap>(prepared_->mesh, frame.between.f);
+}
+
 std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const TimedFrame& frame) const {
-  std::unique_ptr<PointMap> map;
-  if (frame.pose)
-    map = prepared_->deformer->point_map(*frame.pose);
-  else
-    map = std::make_unique<MeshPointMap>(prepared_->mesh, frame.between.f);
+  std::unique_ptr<PointMap> map = point_map(frame);
   if (!map) return nullptr;
-  const VectorXc f = frame.pose ? on_mesh(frame).f : frame.between.f;
-  return std::make_unique<Inverse>(std::move(map), deformation_.rest, mesh(), f);
+  return std::make_unique<Inverse>(std::move(map), deformation_.rest, mesh(), on_mesh(frame).f);
 }
 
 }  // namespace holomorph

@@ -47,6 +47,10 @@ class TimedMap {
   /// The number of points that at() should take at once, because of the budget for coordinates.
   size_t block_size() const;
 
+  /// The map at single points. Null if the method evaluates its map only at samples. The TimedMap
+  /// must outlive the result.
+  std::unique_ptr<PointMap> point_map(const TimedFrame& frame) const;
+
   /// The map in linear pieces that are within `tolerance` of it, in units of the plane. They are in
   /// the order in which they are drawn. Maps between keyframes, and those that the method knows
   /// only at samples, are linear in each triangle of the mesh. Uses all cores. Calls `keep_going`

@@ -50,7 +50,7 @@ std::string measured(const ExportEstimate::Question& question, const Pictures& p
   }
 }
 
-/// The size in bytes; none if canceled.
+/// The size in bytes; none if canceled, or if it cannot be estimated.
 std::optional<double> estimate(const ExportEstimate::Question& question, const Pictures& pictures,
                                const Job::Progress& progress) {
   const Scene& scene = question.scene;
@@ -61,7 +61,9 @@ std::optional<double> estimate(const ExportEstimate::Question& question, const P
   const double longest = std::max({shown.width(), shown.height(), 1.0});
   options.scale = std::min(question.options.scale, kSmall / longest);
   const double more = std::pow(question.options.scale / options.scale, 2 * kGrowth);
-  if (const LayeredFormat* layered = layered_format_of("a" + question.extension))
+  const LayeredFormat* layered = layered_format_of("a" + question.extension);
+  if (layered && layered->keeps_drawings) return {};  // the size of drawings has no such law
+  if (layered)
     return more * static_cast<double>(layered
                                           ->encode(layered_picture_of(
                                               scene, pictures.of(scene.layer()), options, pictures))

@@ -40,7 +40,8 @@ std::string exported_picture(const ExportWork& work, Job::Progress& progress) {
   const LayeredFormat* layered = layered_format_of(work.settings.path);
   LayeredPicture picture;
   if (layered)
-    picture = layered_picture_of(work.scene, image, work.options, work.pictures);
+    picture =
+        layered_picture_of(work.scene, image, work.options, work.pictures, layered->keeps_drawings);
   else
     picture.merged = picture_of(work.scene, image, work.options, work.pictures).image;
   if (progress.cancelled()) return "";
@@ -48,8 +49,10 @@ std::string exported_picture(const ExportWork& work, Job::Progress& progress) {
                                     : picture_format_of(work.settings.path).encode(picture.merged);
   if (progress.cancelled()) return "";
   write_file(work.settings.path, bytes);
-  return "Exported " + name_of(work) + ", " +
-         size_text(picture.merged.width, picture.merged.height) + ".";
+  std::string message = "Exported " + name_of(work) + ", " +
+                        size_text(picture.merged.width, picture.merged.height) + ".";
+  for (const std::string& loss : picture.losses) message += " " + loss + ".";
+  return message;
 }
 
 std::string exported_meshes(const ExportWork& work, Job::Progress& progress) {

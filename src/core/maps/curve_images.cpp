@@ -10,14 +10,14 @@ namespace holomorph {
 namespace {
 
 /// A point of an image, and the derivative with respect to the curve's parameter.
-struct Sample {
+struct CurveSample {
   Complex at, speed;
 };
 
-struct Piece {
+struct CurvePiece {
   size_t curve;
   double from, to;
-  Sample start, end;
+  CurveSample start, end;
 
   double middle() const { return 0.5 * (from + to); }
   Points cubic() const {
@@ -34,19 +34,20 @@ Complex speed_of(const Points& curve, double t) {
 }
 
 /// The images of many points of curves.
-class Samples {
+class CurveSamples {
  public:
-  Samples(const std::vector<Points>& curves, const PointValues& map) : curves_(curves), map_(map) {}
+  CurveSamples(const std::vector<Points>& curves, const PointValues& map)
+      : curves_(curves), map_(map) {}
 
   void ask(size_t curve, double t) {
     points_.push_back(bezier_point(curves_[curve], t));
     speeds_.push_back(speed_of(curves_[curve], t));
   }
   /// What was asked for since the last call.
-  std::vector<Sample> answers() {
+  std::vector<CurveSample> answers() {
     const std::vector<PointMap::Value> values =
         points_.empty() ? std::vector<PointMap::Value>() : map_(points_);
-    std::vector<Sample> samples;
+    std::vector<CurveSample> samples;
     for (size_t i = 0; i < values.size(); ++i)
       samples.push_back(
           {values[i].f, values[i].fz * speeds_[i] + values[i].fzbar * std::conj(speeds_[i])});
@@ -65,11 +66,11 @@ class Samples {
 
 std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
                                               const PointValues& map, double tolerance) {
-  Samples samples(curves, map);
-  std::vector<Piece> open, finished;
+  CurveSamples samples(curves, map);
+  std::vector<CurvePiece> open, finished;
   for (size_t c = 0; c < curves.size(); ++c)
     for (const double t : {0.0, 1.0}) samples.ask(c, t);
-  const std::vector<Sample> ends = samples.answers();
+  const std::vector<CurveSample> ends = samples.answers();
   for (size_t c = 0; c < curves.size(); ++c)
     open.push_back({c, 0, 1, ends[2 * c], ends[2 * c + 1]});
   // The error of a cubic Hermite interpolant has the factor t^2 (1 - t)^2, whose largest value is
@@ -77,13 +78,13 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
   constexpr double kInside[] = {0.25, 0.5, 0.75};
   constexpr int kMostHalvings = 12;
   for (int halvings = 0; !open.empty(); ++halvings) {
-    for (const Piece& piece : open)
+    for (const CurvePiece& piece : open)
       for (const double t : kInside)
         samples.ask(piece.curve, piece.from + t * (piece.to - piece.from));
-    const std::vector<Sample> inside = samples.answers();
-    std::vector<Piece> halves;
+    const std::vector<CurveSample> inside = samples.answers();
+    std::vector<CurvePiece> halves;
     for (size_t i = 0; i < open.size(); ++i) {
-      const Piece& piece = open[i];
+      const CurvePiece& piece = open[i];
       const Points cubic = piece.cubic();
       double off = 0;
       for (size_t k = 0; k < 3; ++k)
@@ -92,16 +93,16 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
         finished.push_back(piece);
         continue;
       }
-      const Sample& middle = inside[3 * i + 1];
+      const CurveSample& middle = inside[3 * i + 1];
       halves.push_back({piece.curve, piece.from, piece.middle(), piece.start, middle});
       halves.push_back({piece.curve, piece.middle(), piece.to, middle, piece.end});
     }
     open = std::move(halves);
   }
   std::ranges::sort(finished, {},
-                    [](const Piece& piece) { return std::pair(piece.curve, piece.from); });
+                    [](const CurvePiece& piece) { return std::pair(piece.curve, piece.from); });
   std::vector<std::vector<Points>> images(curves.size());
-  for (const Piece& piece : finished) images[piece.curve].push_back(piece.cubic());
+  for (const CurvePiece& piece : finished) images[piece.curve].push_back(piece.cubic());
   return images;
 }
 

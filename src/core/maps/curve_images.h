@@ -9,9 +9,6 @@
 
 namespace holomorph {
 
-/// The values and derivatives of a map at many points.
-using PointValues = std::function<std::vector<PointMap::Value>(std::span<const Complex>)>;
-
 /// For each Bezier curve of degree 1 to 3, the control points of cubics that follow one another
 /// and are within `tolerance` of the curve's image. Their ends lie on the image and have its
 /// tangents, so that smooth curves stay smooth. If the map is affine, a curve has a single cubic,

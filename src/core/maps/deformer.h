@@ -174,6 +174,14 @@ class PointMap {
   virtual bool is_linear_in_triangles() const { return false; }
 };
 
+/// The values and derivatives of a map at many points.
+using PointValues = std::function<std::vector<PointMap::Value>(std::span<const Complex>)>;
+/// PointMap::values_at() on all cores. Calls `keep_going` on this thread from time to time; an
+/// exception from it ends the work and is rethrown.
+std::vector<PointMap::Value> values_on_all_cores(
+    const PointMap& map, std::span<const Complex> points,
+    const std::function<void()>& keep_going = [] {});
+
 /// The final map of a pose, as a key of a motion.
 struct MotionKey {
   std::shared_ptr<const Solution> solution;

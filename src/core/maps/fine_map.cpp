@@ -68,7 +68,7 @@ struct Piece {
 /// The triangles in which the map is nearly cubic.
 class Cubics {
  public:
-  Cubics(const Cage& rest, const Mesh& mesh, double tolerance, const MapValues& values_at)
+  Cubics(const Cage& rest, const Mesh& mesh, double tolerance, const PointValues& values_at)
       : rest_(oriented(rest)),
         mesh_(mesh),
         tolerance_(tolerance),
@@ -363,7 +363,7 @@ class Cubics {
   Cage rest_;
   const Mesh& mesh_;
   double tolerance_, shortest_, error_ = 0;
-  const MapValues& values_at_;
+  const PointValues& values_at_;
   size_t evaluations_ = 0;
   Points vertices_;
   std::vector<Value> values_;
@@ -374,7 +374,8 @@ class Cubics {
 
 }  // namespace
 
-FineMap fine_map(const Cage& rest, const Mesh& mesh, double tolerance, const MapValues& values_at) {
+FineMap fine_map(const Cage& rest, const Mesh& mesh, double tolerance,
+                 const PointValues& values_at) {
   return Cubics(rest, mesh, tolerance, values_at).linear_pieces();
 }
 

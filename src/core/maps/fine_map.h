@@ -21,8 +21,6 @@ struct FineMap {
   size_t evaluations = 0;  ///< of the map
 };
 
-using MapValues = std::function<std::vector<PointMap::Value>(std::span<const Complex>)>;
-
 /// Divides the triangles of a mesh until linear interpolation between the vertices' images is
 /// within `tolerance` of the map, in units of the plane. Triangles keep their order: the pieces of
 /// one come before the pieces of the next. The boundary follows the cage to within the same
@@ -30,6 +28,7 @@ using MapValues = std::function<std::vector<PointMap::Value>(std::span<const Com
 /// many points, and may use several threads; an exception from it ends the work. Throws Error for
 /// more than 20 million triangles. Cost: about four evaluations of the map per vertex of the mesh,
 /// and 50 ns per piece.
-FineMap fine_map(const Cage& rest, const Mesh& mesh, double tolerance, const MapValues& values_at);
+FineMap fine_map(const Cage& rest, const Mesh& mesh, double tolerance,
+                 const PointValues& values_at);
 
 }  // namespace holomorph

@@ -1,8 +1,11 @@
 // The table of all methods.
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/maps/deformer.h"
 #include "core/methods/check_rest.h"
 #include "core/methods/rows.h"
+#include "core/parallel.h"
 
 namespace holomorph {
 
@@ -57,6 +60,21 @@ const Method& followed_method(const Method& method, const Parameters& values) {
 std::unique_ptr<Deformer> Method::prepare(const Rest& rest, const Deformer* previous) const {
   check_rest(*this, rest);
   return make(rest, previous);
+}
+
+std::vector<PointMap::Value> values_on_all_cores(const PointMap& map,
+                                                 std::span<const Complex> points,
+                                                 const std::function<void()>& keep_going) {
+  constexpr size_t kBlock = 256;
+  const int blocks = static_cast<int>((points.size() + kBlock - 1) / kBlock);
+  std::vector<PointMap::Value> values(points.size());
+  const auto evaluate = [&](int block) {
+    const size_t first = static_cast<size_t>(block) * kBlock;
+    const auto some = map.values_at(points.subspan(first, std::min(kBlock, points.size() - first)));
+    std::ranges::copy(some, values.begin() + static_cast<long>(first));
+  };
+  parallel_for(blocks, evaluate, [&](int) { keep_going(); });
+  return values;
 }
 
 std::vector<PointMap::Value> PointMap::values_at(std::span<const Complex> points) const {

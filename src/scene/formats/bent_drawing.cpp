@@ -77,7 +77,7 @@ class Bender {
     if (!options_.prefix.empty()) prefix_ids(group_);
     std::ostringstream text;
     group_.print(text, "", pugi::format_raw);
-    if (drawing_.ignores_rules) losses_.insert("some style rules");
+    if (drawing_.ignores_rules) losses_.insert("some of its style rules are ignored");
     return {text.str(),       drawing_.width, drawing_.height,
             drawing_.columns, drawing_.rows,  {losses_.begin(), losses_.end()}};
   }
@@ -138,11 +138,11 @@ class Bender {
     static const std::set<std::string> kDropped{"script", "clipPath",  "mask",
                                                 "symbol", "namedview", "foreignObject"};
     if (kDropped.contains(kind)) {
-      if (kind == "foreignObject") losses_.insert("its embedded pages");
+      if (kind == "foreignObject") losses_.insert("its embedded pages are left out");
       return;
     }
     if (kind.starts_with("animate") || kind == "set") {
-      losses_.insert("its animation");
+      losses_.insert("its animation is left out");
       return;
     }
     if (kind == "defs") return add_definitions(node, to);
@@ -309,7 +309,7 @@ class Bender {
       for (const char* paint : {"fill", "stroke"}) use_own_units(copy, paint, box);
       if (!inherited_property(copy, "marker-mid").empty() &&
           inherited_property(copy, "marker-mid") != "none")
-        losses_.insert("the number of its markers");
+        losses_.insert("the number of its markers may differ");
     }
     bend_clipping(node, copy, within);
     for (const pugi::xml_node& child : node.children())  // such as <title>
@@ -348,7 +348,8 @@ class Bender {
   /// Texts and pictures move as a whole.
   void add_whole(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
     const bool is_text = local_name(node) == "text";
-    losses_.insert(is_text ? "the shapes of its letters" : "the shapes of its embedded pictures");
+    losses_.insert(is_text ? "its texts are moved and turned, but not bent"
+                           : "its embedded pictures are moved and turned, but not bent");
     Place within = place;
     within.to_picture = inside(node, place);
     pugi::xml_node copy = copy_of(node, to, place);

@@ -13,7 +13,7 @@ struct BentDrawing {
   std::string group;                     ///< the element <g> with everything that is drawn
   double width = 0, height = 0;          ///< of the drawing at rest: its own size
   int columns = 0, rows = 0;             ///< of the picture that stands for it
-  std::vector<std::string> losses = {};  ///< what is not as in the drawing, such as "its animation"
+  std::vector<std::string> losses = {};  ///< such as "its animation is left out"
 };
 
 struct BendingOptions {

@@ -8,33 +8,37 @@
 namespace holomorph {
 
 const std::vector<FileKind>& file_kinds() {
-  static const std::vector<FileKind> all{{{".json", ".holomorph"}, FileContent::scene},
-                                         {{".png"}, FileContent::picture},
-                                         {{".jpg", ".jpeg"}, FileContent::picture},
-                                         {{".webp"}, FileContent::picture},
-                                         {{".tif", ".tiff"}, FileContent::picture},
-                                         {{".ora"}, FileContent::picture},
-                                         {{".exr"}, FileContent::picture},
-                                         {{".psd"}, FileContent::picture},
-                                         {{".gif"}, FileContent::picture},
-                                         {{".bmp"}, FileContent::picture},
-                                         {{".tga"}, FileContent::picture},
-                                         {{".mp4"}, FileContent::film},
-                                         {{".m4v"}, FileContent::film},
-                                         {{".mov"}, FileContent::film},
-                                         {{".mkv"}, FileContent::film},
-                                         {{".webm"}, FileContent::film},
-                                         {{".avi"}, FileContent::film},
-                                         {{".svg"}, FileContent::path},
-                                         {{".obj"}, FileContent::surface},
-                                         {{".csv"}, FileContent::points}};
+  static const std::vector<FileKind> all{{{".json", ".holomorph"}, {FileContent::scene}},
+                                         {{".png"}, {FileContent::picture}},
+                                         {{".jpg", ".jpeg"}, {FileContent::picture}},
+                                         {{".webp"}, {FileContent::picture}},
+                                         {{".tif", ".tiff"}, {FileContent::picture}},
+                                         {{".ora"}, {FileContent::picture}},
+                                         {{".exr"}, {FileContent::picture}},
+                                         {{".psd"}, {FileContent::picture}},
+                                         {{".gif"}, {FileContent::picture}},
+                                         {{".bmp"}, {FileContent::picture}},
+                                         {{".tga"}, {FileContent::picture}},
+                                         {{".mp4"}, {FileContent::film}},
+                                         {{".m4v"}, {FileContent::film}},
+                                         {{".mov"}, {FileContent::film}},
+                                         {{".mkv"}, {FileContent::film}},
+                                         {{".webm"}, {FileContent::film}},
+                                         {{".avi"}, {FileContent::film}},
+                                         {{".svg"}, {FileContent::picture, FileContent::path}},
+                                         {{".obj"}, {FileContent::surface}},
+                                         {{".csv"}, {FileContent::points}}};
   return all;
+}
+
+bool is_one(const FileKind& kind, FileContent content) {
+  return std::ranges::find(kind.contents, content) != kind.contents.end();
 }
 
 std::vector<std::string> extensions_of(std::initializer_list<FileContent> contents) {
   std::vector<std::string> found;
   for (const FileKind& kind : file_kinds())
-    if (std::ranges::find(contents, kind.content) != contents.end())
+    if (std::ranges::any_of(contents, [&](FileContent each) { return is_one(kind, each); }))
       found.insert(found.end(), kind.extensions.begin(), kind.extensions.end());
   return found;
 }
@@ -42,7 +46,7 @@ std::vector<std::string> extensions_of(std::initializer_list<FileContent> conten
 bool is_named_as(const Path& file, FileContent content) {
   const std::string extension = lower_case(file.extension().string());
   return std::ranges::any_of(file_kinds(), [&](const FileKind& kind) {
-    return kind.content == content &&
+    return is_one(kind, content) &&
            std::ranges::find(kind.extensions, extension) != kind.extensions.end();
   });
 }

@@ -21,10 +21,12 @@ enum class FileContent {
 
 struct FileKind {
   std::vector<std::string> extensions;  ///< in lower case and with the dot
-  FileContent content;
+  std::vector<FileContent> contents;
 };
 const std::vector<FileKind>& file_kinds();
 
+/// Whether files of a kind can be opened as this.
+bool is_one(const FileKind& kind, FileContent content);
 /// The extensions of all files that can be opened as one of these.
 std::vector<std::string> extensions_of(std::initializer_list<FileContent> contents);
 /// Whether the extension is one of files that can be opened as this.

@@ -71,11 +71,12 @@ Image decode_image(const std::string& bytes, const std::string& name, PixelBudge
   if (is_exr(bytes)) return decode_exr(bytes, name, pixels);
   if (is_gif(bytes)) return decode_gif(bytes, name, pixels);
   if (is_ora(bytes)) return decode_ora(bytes, name, pixels);
+  if (is_svg(bytes)) return decode_svg(bytes, name, pixels);
   if (std::optional<Image> plain = decode_plain(bytes, name, pixels)) return std::move(*plain);
   throw Error(ErrorKind::bad_input,
               name +
                   ": not a picture in a supported format (PNG, JPEG, WebP, TIFF, OpenRaster, "
-                  "OpenEXR, BMP, TGA, GIF or PSD)");
+                  "OpenEXR, SVG, BMP, TGA, GIF or PSD)");
 }
 
 namespace {

@@ -43,9 +43,9 @@ class PixelBudget {
   double taken_;
 };
 
-/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, OpenEXR, GIF, BMP, TGA and PSD. The result is upright
-/// and in sRGB. `name` is used in messages. Throws Error{bad_input} if the bytes are not a picture,
-/// or if the picture is damaged, truncated or too large.
+/// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, OpenEXR, SVG, GIF, BMP, TGA and PSD. The result is
+/// upright and in sRGB. `name` is used in messages. Throws Error{bad_input} if the bytes are not a
+/// picture, or if the picture is damaged, truncated or too large.
 Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 inline Image decode_image(const std::string& bytes, const std::string& name) {
   PixelBudget alone;

@@ -7,6 +7,7 @@
 #include "scene/formats/image_formats.h"
 #include "scene/formats/ora_image.h"
 #include "scene/formats/psd_image.h"
+#include "scene/formats/svg_writer.h"
 #include "system/text.h"
 
 namespace holomorph {
@@ -46,14 +47,21 @@ bool needs_group(const LayeredPicture& picture) {
 }
 
 const std::vector<LayeredFormat>& layered_formats() {
-  static const std::vector<LayeredFormat> all{{"Photoshop file with layers", ".psd", encode_psd},
-                                              {"OpenRaster file with layers", ".ora", encode_ora}};
+  static const std::vector<LayeredFormat> all{
+      {"psd", "Photoshop file with layers", ".psd", encode_psd},
+      {"ora", "OpenRaster file with layers", ".ora", encode_ora},
+      {"drawing", "Drawing with layers (SVG)", ".svg", encode_svg, true}};
   return all;
 }
 
 const LayeredFormat* layered_format_of(const Path& file) {
   const auto found = std::ranges::find(layered_formats(), lower_case(file.extension().string()),
                                        &LayeredFormat::extension);
+  return found == layered_formats().end() ? nullptr : &*found;
+}
+
+const LayeredFormat* layered_format_named(const std::string& id) {
+  const auto found = std::ranges::find(layered_formats(), id, &LayeredFormat::id);
   return found == layered_formats().end() ? nullptr : &*found;
 }
 

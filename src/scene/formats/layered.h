@@ -1,4 +1,5 @@
-// Pictures with layers: OpenRaster (Krita, GIMP, MyPaint) and PSD (Photoshop and most others).
+// Pictures with layers: OpenRaster (Krita, GIMP, MyPaint), PSD (Photoshop and most others), and SVG
+// drawings, which are only written.
 #pragma once
 
 #include "scene/formats/image.h"
@@ -37,6 +38,8 @@ Image decode_layer(const std::string& bytes, const std::string& entry, const std
 struct DrawnLayer {
   std::string name;
   Image image;
+  /// Instead of an image: the element <g> of an SVG file, in pixels of the canvas.
+  std::string drawing = {};
   int left = 0, top = 0;  ///< of the image, in pixels from the upper left corner of the canvas
   bool visible = true;
   double opacity = 1;
@@ -51,6 +54,8 @@ struct LayeredPicture {
   /// A color below the layers, with which their blending modes do not mix. Files that need it have
   /// it as their lowest layer, and the others in a group.
   std::optional<std::array<std::uint8_t, 3>> background = {};
+  /// What is not as in the scene, such as "Hat: its animation is left out".
+  std::vector<std::string> losses = {};
 };
 /// The layer of the background's color.
 DrawnLayer background_layer(const LayeredPicture& picture);
@@ -59,12 +64,15 @@ bool needs_group(const LayeredPicture& picture);
 
 /// A file format with layers.
 struct LayeredFormat {
-  std::string label, extension;
+  std::string id, label, extension;
   std::string (*encode)(const LayeredPicture& picture);
+  bool keeps_drawings = false;  ///< layers may be drawings
 };
-/// PSD, and OpenRaster, which has no clipping: clipped layers are cut to the shape of their base.
+/// PSD; OpenRaster, which has no clipping: clipped layers are cut to the shape of their base; and
+/// SVG.
 const std::vector<LayeredFormat>& layered_formats();
-/// The format with this extension; null if there is none.
+/// The format with this extension, or with this id; null if there is none.
 const LayeredFormat* layered_format_of(const Path& file);
+const LayeredFormat* layered_format_named(const std::string& id);
 
 }  // namespace holomorph

@@ -23,7 +23,7 @@ Points inner_points(const Cage& cage, int count, std::mt19937& random) {
   return points;
 }
 
-MapValues values_of(const PointMap& map) {
+PointValues values_of(const PointMap& map) {
   return [&map](std::span<const Complex> points) { return map.values_at(points); };
 }
 

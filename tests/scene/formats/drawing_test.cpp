@@ -119,9 +119,9 @@ TEST_CASE("What cannot be bent is named, and mistakes are explained") {
         .losses;
   };
   CHECK(losses("<path d='M0 0'/>").empty());
-  CHECK(losses("<text>a</text>") == std::vector<std::string>{"the shapes of its letters"});
-  CHECK(losses("<circle r='3'><animate/></circle>") == std::vector<std::string>{"its animation"});
-  CHECK(losses("<style>a:hover{fill:red}</style>") == std::vector<std::string>{"some style rules"});
+  CHECK(losses("<text>a</text>") == std::vector<std::string>{"its texts are moved and turned, but not bent"});
+  CHECK(losses("<circle r='3'><animate/></circle>") == std::vector<std::string>{"its animation is left out"});
+  CHECK(losses("<style>a:hover{fill:red}</style>") == std::vector<std::string>{"some of its style rules are ignored"});
   const auto complaint = [](const std::string& text) {
     return error_message_of([&] { bent_drawing(text, "d.svg", identity, {}); });
   };

@@ -1,0 +1,78 @@
+// The map is that of full precision, not that of the picture's mesh.
+#include "raster/layer_drawing.h"
+
+#include "core/maps/continued_map.h"
+#include "scene/formats/bent_drawing.h"
+#include "scene/fringe.h"
+#include "scene/keyframes.h"
+#include "scene/timed_map.h"
+#include "system/text.h"
+
+namespace holomorph {
+namespace {
+
+std::string group_of(const SourceDrawing& drawing, const PointValues& map,
+                     const DrawingPlace& place, std::vector<std::string>& losses) {
+  BendingOptions options;
+  options.upper_left = Complex(0, place.height);
+  options.prefix = place.prefix;
+  BentDrawing bent = bent_drawing(drawing.text, drawing.name, map, options);
+  losses.insert(losses.end(), bent.losses.begin(), bent.losses.end());
+  return bent.group;
+}
+
+/// The boundary of a mesh as path data.
+std::string outline_of(const Mesh& mesh, const VectorXc& f, const DrawingPlace& place) {
+  const Loops loops = mesh.boundary_loops();
+  std::string path;
+  for (Index loop = 0; loop < loops.count(); ++loop) {
+    for (Index i = loops.first(loop); i < loops.end(loop); ++i) {
+      const Complex at = place.to_canvas(f[mesh.boundary[static_cast<size_t>(i)]]);
+      path += i == loops.first(loop) ? 'M' : 'L';
+      path += decimal(at.real(), 3) + " " + decimal(place.height - at.imag(), 3);
+    }
+    path += 'Z';
+  }
+  return path;
+}
+
+}  // namespace
+
+std::string placed_drawing(const SourceDrawing& drawing, const DrawingPlace& place,
+                           std::vector<std::string>& losses) {
+  const auto map = [&](std::span<const Complex> points) {
+    std::vector<PointMap::Value> values;
+    for (const Complex& z : points)
+      values.push_back({place.to_canvas(z), place.to_canvas.factor, 0});
+    return values;
+  };
+  return group_of(drawing, map, place, losses);
+}
+
+std::string layer_drawing(const SourceDrawing& drawing, const Deformation& deformation,
+                          bool linear_blend, const std::optional<double>& time,
+                          const DrawingPlace& place, std::vector<std::string>& losses) {
+  if (!deformation.has_cage()) return placed_drawing(drawing, place, losses);
+  TimedMap timed(deformation, linear_blend);
+  const bool plays = time && !playing_keys(deformation).empty();
+  const TimedFrame frame = timed.frame(plays ? time : std::nullopt);
+  const std::shared_ptr<const Mesh>& mesh = timed.prepared().mesh;
+  const VectorXc f = timed.on_mesh(frame).f;
+  std::unique_ptr<PointMap> inside = timed.point_map(frame);
+  if (!inside) inside = std::make_unique<MeshPointMap>(mesh, f);
+  const ContinuedMap continued(mesh, f, *inside);
+  const auto map = [&](std::span<const Complex> points) {
+    std::vector<PointMap::Value> values = values_on_all_cores(continued, points);
+    const Complex factor = place.to_canvas.factor;
+    for (PointMap::Value& value : values)
+      value = {place.to_canvas(value.f), factor * value.fz, factor * value.fzbar};
+    return values;
+  };
+  const std::string group = group_of(drawing, map, place, losses);
+  if (!is_cut_off(*mesh, drawing.image)) return group;
+  const std::string cage = place.prefix + "cage";
+  return "<g><clipPath id=\"" + cage + "\"><path d=\"" + outline_of(*mesh, f, place) +
+         "\"/></clipPath><g clip-path=\"url(#" + cage + ")\">" + group + "</g></g>";
+}
+
+}  // namespace holomorph

@@ -1,0 +1,39 @@
+// Layers whose pictures are SVG drawings, as bent drawings.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/similarity.h"
+#include "scene/formats/image.h"
+#include "scene/scene.h"
+
+namespace holomorph {
+
+/// An SVG drawing and the picture that stands for it.
+struct SourceDrawing {
+  std::string text, name;  ///< the name of its file, for messages
+  const Image& image;
+};
+
+/// Where a drawing goes.
+struct DrawingPlace {
+  Similarity to_canvas;  ///< from the layer's plane to pixels of the canvas, y up
+  double height = 0;     ///< of the canvas, in pixels
+  std::string prefix;    ///< of all ids
+};
+
+/// The element <g> of a layer's drawing, bent by the layer's map at a time, within 0.05 pixels of
+/// the canvas. Without a time, it is bent by the map of the layer's own pose. Where the cage cuts
+/// off parts of the picture, the drawing is clipped by the posed cage, and otherwise drawn as a
+/// whole. What overlaps itself is in the order of the drawing. Appends what is lost. Throws Error.
+std::string layer_drawing(const SourceDrawing& drawing, const Deformation& deformation,
+                          bool linear_blend, const std::optional<double>& time,
+                          const DrawingPlace& place, std::vector<std::string>& losses);
+
+/// The same for a drawing that is not bent.
+std::string placed_drawing(const SourceDrawing& drawing, const DrawingPlace& place,
+                           std::vector<std::string>& losses);
+
+}  // namespace holomorph
