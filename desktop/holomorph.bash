@@ -2,7 +2,7 @@
 _holomorph() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} words=
   case $before in
-    --format) words="obj svg npy png stmap unwarp-map unwarp textured glb godot spine mdd pc2 psd ora webp gif apng mp4 webm" ;;
+    --format) words="obj svg npy png stmap unwarp-map unwarp textured glb godot spine mdd pc2 psd ora drawing webp gif apng mp4 webm" ;;
     --view) words="image angle area stretch checker" ;;
     --flattening) words="lscm circle" ;;
     --frames) words="all" ;;

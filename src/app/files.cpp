@@ -207,13 +207,10 @@ void Files::ask_open(const Path& path) {
 }
 
 void Files::drop(const Path& path) {
-  const bool is_path = is_named_as(path, FileContent::path),
-             is_surface = is_named_as(path, FileContent::surface);
+  const bool is_surface = is_named_as(path, FileContent::surface);
   const Document& document = workspace_.document;
-  if ((is_path || is_surface) && document.scene().deformation().has_cage())
+  if (is_surface && document.scene().deformation().has_cage())
     workspace_.messages.complain(imports_.outline(path));
-  else if (is_path && document.image())
-    workspace_.messages.complain(imports_.svg(path, false));
   else if (is_surface && document.image())
     workspace_.messages.complain(
         path.filename().string() +
@@ -224,15 +221,21 @@ void Files::drop(const Path& path) {
     ask_where(path);
 }
 
-/// Asks what to do with a dropped picture or scene.
+/// Asks what to do with a dropped picture, drawing or scene.
 void Files::ask_where(const Path& path) {
   Question question{"Dropped file", short_name(path.filename()), {}};
-  question.answers.push_back(
-      {"Add as a layer", [this, path] { workspace_.messages.complain(imports_.add_layer(path)); }});
+  const auto offer = [&](const std::string& label, const std::function<std::string()>& take) {
+    question.answers.push_back({label, [this, take] { workspace_.messages.complain(take()); }});
+  };
+  offer("Add as a layer", [this, path] { return imports_.add_layer(path); });
   if (!is_named_as(path, FileContent::scene))
-    question.answers.push_back({"Replace this layer's picture", [this, path] {
-                                  workspace_.messages.complain(imports_.replace_picture(path));
-                                }});
+    offer("Replace this layer's picture", [this, path] { return imports_.replace_picture(path); });
+  if (is_named_as(path, FileContent::path)) {
+    if (workspace_.document.scene().deformation().has_cage())
+      offer("Use as the outline", [this, path] { return imports_.outline(path); });
+    else
+      offer("Use as the cage", [this, path] { return imports_.svg(path, false); });
+  }
   question.answers.push_back({"Open as a new scene", [this, path] { ask_open(path); }});
   question.answers.push_back({"Cancel", {}});
   questions_.ask(std::move(question));

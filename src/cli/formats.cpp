@@ -25,7 +25,7 @@ std::string text_of(FileContent content) {
     case FileContent::picture:
       return "a picture";
     case FileContent::film:
-      return "a film as a picture (needs ffmpeg)";
+      return "a film as a picture";
     case FileContent::path:
       return "a cage or an outline";
     case FileContent::surface:
@@ -73,6 +73,7 @@ std::vector<Row> rows() {
     std::vector<std::string> writes = written_to(kind.extensions[0]);
     std::vector<std::string> opened;
     for (const FileContent content : kind.contents) opened.push_back(text_of(content));
+    if (!kind.needs.empty()) opened[0] += " (needs " + kind.needs + ")";
     if (is_one(kind, FileContent::scene) || is_one(kind, FileContent::points))
       writes.insert(writes.begin(), opened[0]);
     const bool layered = may_have_layers("a" + kind.extensions[0]);

@@ -181,9 +181,9 @@ void export_layers(const LoadedScene& loaded, const ExportCommand& command,
   write_result(command.out, bytes);
   for (const std::string& loss : picture.losses)
     std::fprintf(stderr, "holomorph: %s\n", printable(loss).c_str());
-  std::fprintf(stderr, "%s: %zu layers of %d x %d pixels%s\n", shown_output(command.out).c_str(),
-               picture.layers.size(), picture.merged.width, picture.merged.height,
-               drawings_text(picture, format).c_str());
+  std::fprintf(stderr, "%s: %zu layer%s of %d x %d pixels%s\n", shown_output(command.out).c_str(),
+               picture.layers.size(), picture.layers.size() == 1 ? "" : "s", picture.merged.width,
+               picture.merged.height, drawings_text(picture, format).c_str());
 }
 
 /// Throws Error for options that the format does not support.

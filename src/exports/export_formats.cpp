@@ -86,9 +86,8 @@ const std::vector<ExportFormat>& export_formats() {
       formats.push_back({.id = layered.id,
                          .label = layered.label,
                          .extensions = {layered.extension},
-                         .writes = layered.keeps_drawings
-                                       ? "the posed layers; drawings stay drawings"
-                                       : "the posed layers",
+                         .writes = layered.keeps_drawings ? "the posed layers, drawings as drawings"
+                                                          : "the posed layers",
                          .scale = true,
                          .crop = true,
                          .time = true});

@@ -21,19 +21,38 @@ std::string group_of(const SourceDrawing& drawing, const PointValues& map,
   return bent.group;
 }
 
-/// The boundary of a mesh as path data.
-std::string outline_of(const Mesh& mesh, const VectorXc& f, const DrawingPlace& place) {
-  const Loops loops = mesh.boundary_loops();
+/// Path data of closed loops in the layer's plane.
+std::string path_of(const Points& points, const Loops& loops, const DrawingPlace& place) {
   std::string path;
   for (Index loop = 0; loop < loops.count(); ++loop) {
     for (Index i = loops.first(loop); i < loops.end(loop); ++i) {
-      const Complex at = place.to_canvas(f[mesh.boundary[static_cast<size_t>(i)]]);
+      const Complex at = place.to_canvas(points[static_cast<size_t>(i)]);
       path += i == loops.first(loop) ? 'M' : 'L';
       path += decimal(at.real(), 3) + " " + decimal(place.height - at.imag(), 3);
     }
     path += 'Z';
   }
   return path;
+}
+
+/// The boundary of a mesh, moved inwards a little, so that what is drawn outside of it overlaps
+/// with what is drawn inside.
+Points narrowed_boundary(const Mesh& mesh, double by) {
+  const Loops loops = mesh.boundary_loops();
+  Points points;
+  const auto at = [&](Index i) {
+    return mesh.vertices[static_cast<size_t>(mesh.boundary[static_cast<size_t>(i)])];
+  };
+  for (Index i = 0; i < static_cast<Index>(mesh.boundary.size()); ++i) {
+    const Complex along = at(loops.next(i)) - at(loops.before(i));
+    points.push_back(at(i) + by * kI * along / std::abs(along));
+  }
+  return points;
+}
+
+std::string clipped(const std::string& group, const std::string& id, const std::string& path) {
+  return "<clipPath id=\"" + id + "\"><path clip-rule=\"evenodd\" d=\"" + path +
+         "\"/></clipPath><g clip-path=\"url(#" + id + ")\">" + group + "</g>";
 }
 
 }  // namespace
@@ -69,10 +88,22 @@ std::string layer_drawing(const SourceDrawing& drawing, const Deformation& defor
     return values;
   };
   const std::string group = group_of(drawing, map, place, losses);
-  if (!is_cut_off(*mesh, drawing.image)) return group;
-  const std::string cage = place.prefix + "cage";
-  return "<g><clipPath id=\"" + cage + "\"><path d=\"" + outline_of(*mesh, f, place) +
-         "\"/></clipPath><g clip-path=\"url(#" + cage + ")\">" + group + "</g></g>";
+  if (!has_solid_surroundings(*mesh, drawing.image)) return group;
+  constexpr double kOverlap = 0.75, kFar = 1e5;  // in pixels of the canvas
+  const Loops loops = mesh->boundary_loops();
+  Points posed;
+  for (const int v : mesh->boundary) posed.push_back(f[v]);
+  DrawingPlace rest = place;
+  rest.prefix += "rest-";
+  std::vector<std::string> same_losses;
+  const std::string everywhere = "M-" + decimal(kFar, 0) + " -" + decimal(kFar, 0) + "h" +
+                                 decimal(2 * kFar, 0) + "v" + decimal(2 * kFar, 0) + "h-" +
+                                 decimal(2 * kFar, 0) + "Z";
+  const Points hole = narrowed_boundary(*mesh, kOverlap / std::abs(place.to_canvas.factor));
+  return "<g>" +
+         clipped(placed_drawing(drawing, rest, same_losses), rest.prefix + "outside",
+                 everywhere + path_of(hole, loops, place)) +
+         clipped(group, place.prefix + "cage", path_of(posed, loops, place)) + "</g>";
 }
 
 }  // namespace holomorph

@@ -34,7 +34,7 @@ std::optional<Box> faint_box(PolygonView polygon, const Image& picture,
                              const std::function<bool()>& keep_going) {
   std::vector<std::pair<Complex, Complex>> edges;
   polygon.for_each_edge([&](Index, Complex a, Complex b) { edges.emplace_back(a, b); });
-  const int solid = (largest_alpha(picture) + 1) / 2;
+  const int solid = std::max((largest_alpha(picture) + 1) / 2, 1);
   const double reach = kSlack * box_of(polygon.points()).diagonal();
   Box box;
   std::vector<double> crossings;
@@ -143,7 +143,7 @@ Points Fringe::positions(std::span<const Complex> f) const {
   return at;
 }
 
-bool is_cut_off(const Mesh& mesh, const Image& picture) {
+bool has_solid_surroundings(const Mesh& mesh, const Image& picture) {
   return !faint_box(boundary_of(mesh), picture, [] { return true; });
 }
 

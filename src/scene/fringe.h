@@ -24,13 +24,13 @@ struct Fringe {
   Points positions(std::span<const Complex> f) const;
 };
 
-/// Whether the cage with this mesh cuts off solid parts of a picture, so that there is no fringe:
-/// pixels outside that have at least half the opacity of the most opaque one, unless the cage is
-/// only imprecise there.
-bool is_cut_off(const Mesh& mesh, const Image& picture);
+/// Whether solid parts of a picture lie outside the cage with this mesh: pixels with at least half
+/// the opacity of the most opaque one, unless the cage is only imprecise there. What is outside
+/// then stays where it is.
+bool has_solid_surroundings(const Mesh& mesh, const Image& picture);
 
-/// The fringe of a picture around the mesh of its cage. Null if the picture is cut
-/// off, or if there is nothing outside. Cost: about 1 ns per
+/// The fringe of a picture around the mesh of its cage. Null if it has solid
+/// surroundings, or if there is nothing outside. Cost: about 1 ns per
 /// pixel; with a fringe, that of a mesh. `keep_going` is called from time to time; if it returns
 /// false, the result is null.
 std::shared_ptr<const Fringe> fringe_of(

@@ -1,10 +1,34 @@
 // Reads arbitrary bytes as an SVG file. The result must be an Error or a loop; a rest cage must be
-// unchanged after it is written and read back.
+// unchanged after it is written and read back. As a drawing, it is bent; what is written must be
+// XML, have only finite numbers and contain no scripts.
 #include "core/error.h"
+#include "scene/formats/bent_drawing.h"
 #include "scene/formats/scene_json.h"
+#include "scene/formats/svg_document.h"
 #include "scene/formats/svg_path.h"
 
 using namespace holomorph;
+
+namespace {
+
+std::vector<PointMap::Value> bent(std::span<const Complex> points) {
+  std::vector<PointMap::Value> values;
+  for (const Complex& z : points) {
+    const Complex turn = std::polar(1.0, 0.001 * z.real());
+    values.push_back({z * turn, turn * (1.0 + 0.0005 * kI * z), turn * 0.0005 * kI * z});
+  }
+  return values;
+}
+
+void check_written(const pugi::xml_node& node) {
+  check(std::string(node.name()) != "script", "a bent drawing has no scripts");
+  const std::string path = node.attribute("d").as_string(),
+                    transform = node.attribute("transform").as_string();
+  check((path + transform).find("nan") == std::string::npos, "all numbers are finite");
+  for (const pugi::xml_node& child : node.children()) check_written(child);
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -19,5 +43,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
       cage_of_svg(svg_of(deformation, {}), "again", 100, use);
     } catch (const Error&) {
     }
+  try {
+    const BentDrawing drawing = bent_drawing(text, "fuzz", bent, {.prefix = "a-"});
+    // The group is nested as deeply as the drawing itself, which was checked.
+    pugi::xml_document written;
+    check(static_cast<bool>(written.load_string(drawing.group.c_str())), "the result is XML");
+    check_written(written);
+  } catch (const Error&) {
+  }
   return 0;
 }

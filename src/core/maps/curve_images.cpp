@@ -73,9 +73,10 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
   const std::vector<CurveSample> ends = samples.answers();
   for (size_t c = 0; c < curves.size(); ++c)
     open.push_back({c, 0, 1, ends[2 * c], ends[2 * c + 1]});
-  // The error of a cubic Hermite interpolant has the factor t^2 (1 - t)^2, whose largest value is
-  // at 1/2. At the other two points, it would be 9/16 of that.
-  constexpr double kInside[] = {0.25, 0.5, 0.75};
+  // The error of a cubic Hermite interpolant of a smooth curve is largest near 1/2. That of a curve
+  // with kinks, which maps that are linear in triangles have, may be largest anywhere.
+  constexpr double kInside[] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875};
+  constexpr size_t kCount = std::size(kInside);
   constexpr int kMostHalvings = 12;
   for (int halvings = 0; !open.empty(); ++halvings) {
     for (const CurvePiece& piece : open)
@@ -87,13 +88,13 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
       const CurvePiece& piece = open[i];
       const Points cubic = piece.cubic();
       double off = 0;
-      for (size_t k = 0; k < 3; ++k)
-        off = std::max(off, std::abs(bezier_point(cubic, kInside[k]) - inside[3 * i + k].at));
+      for (size_t k = 0; k < kCount; ++k)
+        off = std::max(off, std::abs(bezier_point(cubic, kInside[k]) - inside[kCount * i + k].at));
       if (off <= tolerance || halvings == kMostHalvings) {
         finished.push_back(piece);
         continue;
       }
-      const CurveSample& middle = inside[3 * i + 1];
+      const CurveSample& middle = inside[kCount * i + kCount / 2];
       halves.push_back({piece.curve, piece.from, piece.middle(), piece.start, middle});
       halves.push_back({piece.curve, piece.middle(), piece.to, middle, piece.end});
     }

@@ -14,7 +14,7 @@ namespace holomorph {
 /// tangents, so that smooth curves stay smooth. If the map is affine, a curve has a single cubic,
 /// which is exact. Curves are halved until their pieces are close enough, at most 2^12 times; where
 /// the map jumps, the shortest pieces bridge the gap. `map` is called for many curves at once,
-/// about as often as the pieces are halved. Cost: three points for each piece that is tried.
+/// about as often as the pieces are halved. Cost: seven points for each piece that is tried.
 std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
                                               const PointValues& map, double tolerance);
 

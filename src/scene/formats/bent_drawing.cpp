@@ -51,6 +51,37 @@ Affine average(const std::vector<PointMap::Value>& values, const Points& points)
   return map;
 }
 
+/// Whether an affine map misses the values of another map by a tenth of their extent, on average.
+bool misses(const Affine& map, const Points& points, std::span<const PointMap::Value> values) {
+  constexpr double kVisible = 0.1;
+  Complex center = 0;
+  for (const PointMap::Value& value : values) center += value.f / double(values.size());
+  double off = 0, extent = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    off += std::norm(map(points[i]) - values[i].f);
+    extent += std::norm(values[i].f - center);
+  }
+  return off > kVisible * kVisible * extent;
+}
+
+/// Whether a path encloses some area if its subpaths are closed.
+bool has_area(const std::vector<Subpath>& path) {
+  return std::ranges::any_of(path, [](const Subpath& subpath) {
+    Complex along = 0;
+    double width = 0, length = 0;
+    for (const Points& segment : subpath.segments)
+      for (const Complex& z : segment)
+        if (std::abs(z - subpath.start) > length) {
+          along = z - subpath.start;
+          length = std::abs(along);
+        }
+    for (const Points& segment : subpath.segments)
+      for (const Complex& z : segment)
+        width = std::max(width, std::abs(cross(along, z - subpath.start)));
+    return width > 1e-9 * length * length;
+  });
+}
+
 class Bender {
  public:
   Bender(const std::string& svg, const std::string& name, const PointValues& map,
@@ -289,11 +320,18 @@ class Bender {
     }
   }
 
+  static bool has_stroke(const pugi::xml_node& node) {
+    const std::string stroke = inherited_property(node, "stroke");
+    return !stroke.empty() && stroke != "none";
+  }
+  static bool paints_gradient(const pugi::xml_node& node) {
+    return inherited_property(node, "fill").starts_with("url(") ||
+           inherited_property(node, "stroke").starts_with("url(");
+  }
   /// Whether what is drawn on a shape depends on its user units.
   static bool depends_on_units(const pugi::xml_node& node) {
-    const std::string stroke = inherited_property(node, "stroke"),
-                      fill = inherited_property(node, "fill"), filter = property_of(node, "filter");
-    return (!stroke.empty() && stroke != "none") || fill.starts_with("url(") ||
+    const std::string filter = property_of(node, "filter");
+    return has_stroke(node) || inherited_property(node, "fill").starts_with("url(") ||
            (!filter.empty() && filter != "none");
   }
 
@@ -301,7 +339,12 @@ class Bender {
     pugi::xml_node copy = copy_of(node, to, place);
     Place within = place;
     within.to_picture = inside(node, place);
-    const std::vector<Subpath> path = path_of_shape(node, place.viewport);
+    std::vector<Subpath> path = path_of_shape(node, place.viewport);
+    // What fills and clips is closed in any case. It must be before it is bent.
+    if (!has_area(path))
+      set_property(copy, "fill", "none");
+    else if (place.clips || !has_stroke(copy))
+      for (Subpath& subpath : path) subpath.closed = true;
     if (!place.clips && depends_on_units(copy)) {
       within.frame = new_frame(copy, within.to_picture, place.frame);
       Box box;
@@ -473,7 +516,10 @@ class Bender {
     for (size_t i = 1; i < frames_.size(); ++i) {
       Frame& frame = frames_[i];
       const auto end = at + static_cast<long>(frame.samples.size());
-      frame.placement = composed(average({at, end}, frame.samples), frame.to_picture);
+      const Affine map = average({at, end}, frame.samples);
+      frame.placement = composed(map, frame.to_picture);
+      if (paints_gradient(frame.node) && misses(map, frame.samples, {at, end}))
+        losses_.insert("some gradients are moved and turned, but not bent");
       at = end;
       if (!(std::abs(frame.placement.determinant()) > 1e-18))
         frame.placement = frames_[frame.parent].placement;

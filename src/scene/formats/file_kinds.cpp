@@ -8,26 +8,27 @@
 namespace holomorph {
 
 const std::vector<FileKind>& file_kinds() {
-  static const std::vector<FileKind> all{{{".json", ".holomorph"}, {FileContent::scene}},
-                                         {{".png"}, {FileContent::picture}},
-                                         {{".jpg", ".jpeg"}, {FileContent::picture}},
-                                         {{".webp"}, {FileContent::picture}},
-                                         {{".tif", ".tiff"}, {FileContent::picture}},
-                                         {{".ora"}, {FileContent::picture}},
-                                         {{".exr"}, {FileContent::picture}},
-                                         {{".psd"}, {FileContent::picture}},
-                                         {{".gif"}, {FileContent::picture}},
-                                         {{".bmp"}, {FileContent::picture}},
-                                         {{".tga"}, {FileContent::picture}},
-                                         {{".mp4"}, {FileContent::film}},
-                                         {{".m4v"}, {FileContent::film}},
-                                         {{".mov"}, {FileContent::film}},
-                                         {{".mkv"}, {FileContent::film}},
-                                         {{".webm"}, {FileContent::film}},
-                                         {{".avi"}, {FileContent::film}},
-                                         {{".svg"}, {FileContent::picture, FileContent::path}},
-                                         {{".obj"}, {FileContent::surface}},
-                                         {{".csv"}, {FileContent::points}}};
+  static const std::vector<FileKind> all{
+      {{".json", ".holomorph"}, {FileContent::scene}},
+      {{".png"}, {FileContent::picture}},
+      {{".jpg", ".jpeg"}, {FileContent::picture}},
+      {{".webp"}, {FileContent::picture}},
+      {{".tif", ".tiff"}, {FileContent::picture}},
+      {{".ora"}, {FileContent::picture}},
+      {{".exr"}, {FileContent::picture}},
+      {{".psd"}, {FileContent::picture}},
+      {{".gif"}, {FileContent::picture}},
+      {{".bmp"}, {FileContent::picture}},
+      {{".tga"}, {FileContent::picture}},
+      {{".mp4"}, {FileContent::film}, "ffmpeg"},
+      {{".m4v"}, {FileContent::film}, "ffmpeg"},
+      {{".mov"}, {FileContent::film}, "ffmpeg"},
+      {{".mkv"}, {FileContent::film}, "ffmpeg"},
+      {{".webm"}, {FileContent::film}, "ffmpeg"},
+      {{".avi"}, {FileContent::film}, "ffmpeg"},
+      {{".svg"}, {FileContent::picture, FileContent::path}, "rsvg-convert"},
+      {{".obj"}, {FileContent::surface}},
+      {{".csv"}, {FileContent::points}}};
   return all;
 }
 

@@ -22,6 +22,7 @@ enum class FileContent {
 struct FileKind {
   std::vector<std::string> extensions;  ///< in lower case and with the dot
   std::vector<FileContent> contents;
+  std::string needs = {};  ///< the program that must be installed to open it as the first of these
 };
 const std::vector<FileKind>& file_kinds();
 

@@ -132,7 +132,7 @@ Box extent_of(const pugi::xml_node& node, const Viewport& viewport) {
 }
 
 SvgDocument svg_document_of(const std::string& text, const std::string& name) {
-  constexpr double kShortest = 1024, kLongest = 4096;  // of the longer side, in pixels
+  constexpr double kSmall = 512, kEnlarged = 1024, kLongest = 4096;  // of the longer side
   SvgDocument document;
   document.name = name;
   document.xml = xml_of(text, name);
@@ -143,7 +143,7 @@ SvgDocument svg_document_of(const std::string& text, const std::string& name) {
   const double longer = std::max(size.width, size.height);
   if (!(std::min(size.width, size.height) > 0) || !(longer < 1e9))
     throw Error(ErrorKind::bad_input, name + ": the drawing is empty or has no size");
-  const double scale = std::clamp(longer, kShortest, kLongest) / longer;
+  const double scale = longer < kSmall ? kEnlarged / longer : std::min(1.0, kLongest / longer);
   document.width = size.width;
   document.height = size.height;
   document.columns = std::max(1, static_cast<int>(std::lround(scale * size.width)));

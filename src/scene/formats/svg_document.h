@@ -21,10 +21,11 @@ struct SvgDocument {
   pugi::xml_node root() const { return xml.document_element(); }
 };
 
-/// Reads an SVG file and applies its style sheets. The picture has the drawing's own size if its
-/// longer side has 1024 to 4096 pixels, and is otherwise enlarged or reduced to that. A drawing
-/// without a size has that of its content. Throws Error{bad_input} if it is not an SVG file, if it
-/// is nested too deeply, or if it has no size. Cost: linear, and that of the style sheets.
+/// Reads an SVG file and applies its style sheets. The picture has the drawing's own size, but the
+/// longer side of small drawings (less than 512 pixels) becomes 1024 pixels, and that of large ones
+/// 4096. A drawing without a size has that of its content. Throws Error{bad_input} if it is not an
+/// SVG file, if it is nested too deeply, or if it has no size. Cost: linear, and that of the style
+/// sheets.
 SvgDocument svg_document_of(const std::string& text, const std::string& name);
 
 /// Parses XML, with the entities that the file declares. Throws Error{bad_input} if it is damaged,

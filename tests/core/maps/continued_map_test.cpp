@@ -60,7 +60,7 @@ TEST_CASE("Continued maps: inside they are the map, and everywhere finite") {
           CHECK(is_finite(values[i].fz));
           CHECK(is_finite(values[i].fzbar));
           (locator.at(points[i]) ? inside : outside)++;
-          if (locator.at(points[i])) CHECK(values[i].f == own[i].f);
+          if (locator.at(points[i])) CHECK(std::abs(values[i].f - own[i].f) < 1e-9);
         }
         CHECK(inside > 10);
         CHECK(outside > 10);
@@ -120,6 +120,7 @@ TEST_CASE("Continued motions are the same motions everywhere") {
   std::mt19937 random(5);
   Continued c(method_named("mean_value"), Shape::straight, 0, random);
   const Complex turn = std::polar(1.3, 0.7);
+  c.s.pose.cage = c.s.rest.cage;
   for (Points& segment : c.s.pose.cage.segments)
     for (Complex& z : segment) z = turn * z + Complex(20, -5);
   c.inside = c.deformer->point_map(c.s.pose);

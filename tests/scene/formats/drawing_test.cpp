@@ -81,11 +81,35 @@ TEST_CASE("A drawing is opened in its own size, enlarged if it is small") {
   CHECK(image.width == 1024);
   CHECK(image.height == 683);
   CHECK(drawn("<svg width='3000' height='10'/>").width == 3000);
+  CHECK(drawn("<svg width='600' height='400'/>").width == 600);
+  CHECK(drawn("<svg width='6000' height='3000'/>").height == 2048);
   CHECK(drawn("<svg viewBox='0 0 9 18'/>").height == 1024);
   const Image content = drawn("<svg><rect x='-5' y='3' width='20' height='10' fill='red'/></svg>");
   CHECK(content.width == 1024);
   CHECK(content.height == 512);
   CHECK(content.at(0, 0)[0] == 255);
+}
+
+TEST_CASE("What has no area is not filled when it is bent") {
+  const PointValues square = [](std::span<const Complex> points) {
+    std::vector<PointMap::Value> values;
+    for (const Complex& z : points) values.push_back({z + 0.0002 * z * z, 1.0 + 0.0004 * z, 0});
+    return values;
+  };
+  const auto bent = [&](const std::string& shape) {
+    return bent_drawing("<svg width='900' height='900'>" + shape + "</svg>", "a.svg", square, {})
+        .group;
+  };
+  const auto is_filled = [&](const std::string& shape) {
+    return bent(shape).find("fill:none") == std::string::npos;
+  };
+  CHECK_FALSE(is_filled("<path d='M9 9L500 700' stroke='red'/>"));
+  CHECK_FALSE(is_filled("<line x1='9' x2='400' y2='700' stroke='red'/>"));
+  CHECK_FALSE(is_filled("<polyline points='9,9 99,99 999,999' style='stroke:red;fill:blue'/>"));
+  CHECK(is_filled("<path d='M9 9L500 700L0 800' stroke='red'/>"));
+  // Where nothing is stroked, the edge that closes a shape is bent, too.
+  CHECK(bent("<path d='M9 9L500 700L0 800'/>").find("Z\"") != std::string::npos);
+  CHECK(bent("<path d='M9 9L500 700L0 800' stroke='red'/>").find("Z\"") == std::string::npos);
 }
 
 TEST_CASE("A drawing that is bent by the identity looks as before") {
@@ -119,9 +143,12 @@ TEST_CASE("What cannot be bent is named, and mistakes are explained") {
         .losses;
   };
   CHECK(losses("<path d='M0 0'/>").empty());
-  CHECK(losses("<text>a</text>") == std::vector<std::string>{"its texts are moved and turned, but not bent"});
-  CHECK(losses("<circle r='3'><animate/></circle>") == std::vector<std::string>{"its animation is left out"});
-  CHECK(losses("<style>a:hover{fill:red}</style>") == std::vector<std::string>{"some of its style rules are ignored"});
+  CHECK(losses("<text>a</text>") ==
+        std::vector<std::string>{"its texts are moved and turned, but not bent"});
+  CHECK(losses("<circle r='3'><animate/></circle>") ==
+        std::vector<std::string>{"its animation is left out"});
+  CHECK(losses("<style>a:hover{fill:red}</style>") ==
+        std::vector<std::string>{"some of its style rules are ignored"});
   const auto complaint = [](const std::string& text) {
     return error_message_of([&] { bent_drawing(text, "d.svg", identity, {}); });
   };
