@@ -173,6 +173,42 @@ class EditorWindowTest(WindowCase):
             with open(out, "rb") as file:
                 self.assertTrue(file.read(8).startswith(b"8BPS" if kind == "psd" else b"PK"))
 
+    def test_a_drawing_opens_bends_and_is_exported_as_a_drawing(self):
+        drawing = os.path.join(self.work, "gecko.svg")
+        shutil.copy(os.path.join(SOURCE, "assets/gecko.svg"), drawing)
+        with Editor(PROGRAM, []) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            editor.drop(drawing, 700, 500)
+            editor.wait(lambda s: s["pictured"] and s["tool"] == "pin", "the drawing and the pin tool", 60)
+            time.sleep(0.5)
+            self.screenshot(editor, "drawing-opened")
+            editor.click(600, 410)
+            editor.click(800, 668)
+            editor.drag((250, 270), (250, 360))
+            editor.wait(lambda s: s["pins"] == 3 and not s["gesture"] and s["modified"], "a bent drawing", 60)
+            editor.drop(drawing, 700, 500)
+            editor.item("Use as the outline")
+            self.screenshot(editor, "drawing-dropped")
+            editor.key("Escape")
+            scene = os.path.join(self.work, "bent.json")
+            self.save_as(editor, scene)
+            self.ask(editor, "ctrl+e")
+            editor.press_item("Format")
+            time.sleep(0.5)
+            self.screenshot(editor, "drawing-formats")
+            editor.press_item("Drawing with layers (SVG)")
+            out = os.path.join(self.work, "bent-bent.svg")
+            time.sleep(0.5)
+            self.screenshot(editor, "drawing-export")
+            editor.key("Return")
+            editor.wait(lambda s: os.path.exists(out) and not s["exporting"], "the exported drawing", 60)
+            time.sleep(0.5)
+            self.screenshot(editor, "drawing-exported")
+        expected = os.path.join(self.work, "expected.svg")
+        subprocess.run([PROGRAM, "export", scene, "--format", "drawing", "--out", expected], check=True, stderr=subprocess.DEVNULL)
+        with open(out) as ours, open(expected) as theirs:
+            self.assertEqual(ours.read(), theirs.read())
+
     def test_meshes_and_st_maps_from_the_dialog_have_the_bits_of_the_command(self):
         cage = [[20, 20], [280, 20], [280, 180], [20, 180]]
         scene = self.caged((300, 200), cage)
