@@ -281,9 +281,9 @@ void CommandLine::add_export(CLI::App& app) {
   sub->add_flag("--sound", exported.sound,
                 "Keep the sound of films that are pictures of layers; for mp4 and webm");
   sub->add_option("--out", exported.out, "File to write")->required();
-  add_rectangle(
-      sub, exported.rectangle,
-      sub->add_flag("--crop", exported.crop, "Crop to the picture's rectangle; for png and films"));
+  add_rectangle(sub, exported.rectangle,
+                sub->add_flag("--crop", exported.crop,
+                              "Crop to the picture's rectangle; for pictures, layers and films"));
   add_moments(sub, exported.moments, "; for png, ST-maps, meshes and films");
   add_force(sub, exported.force);
 }

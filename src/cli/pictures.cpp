@@ -155,16 +155,20 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
 }
 
-/// Such as ", 2 of them drawings"; empty for formats of pixels.
+/// Such as "; 2 are drawings"; empty for formats of pixels.
 std::string drawings_text(const LayeredPicture& picture, const LayeredFormat& format) {
   if (!format.keeps_drawings) return "";
   const auto count = std::ranges::count_if(
       picture.layers, [](const DrawnLayer& layer) { return !layer.drawing.empty(); });
-  return ", " + std::to_string(count) + " of them " + (count == 1 ? "a drawing" : "drawings");
+  return "; " + (count == 0 ? "none" : std::to_string(count)) +
+         (count == 1 ? " is a drawing" : " are drawings");
 }
 
 void export_layers(const LoadedScene& loaded, const ExportCommand& command,
                    const LayeredFormat& format) {
+  if (!is_standard(command.out) && lower_case(command.out.extension().string()) != format.extension)
+    throw Error(ErrorKind::bad_input,
+                command.out.string() + ": the name must end in " + format.extension);
   PictureOptions options;
   options.scale = command.scale.value_or(1);
   options.crop = command.crop;

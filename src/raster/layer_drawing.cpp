@@ -3,6 +3,7 @@
 
 #include "core/maps/continued_map.h"
 #include "scene/formats/bent_drawing.h"
+#include "scene/formats/svg_document.h"
 #include "scene/fringe.h"
 #include "scene/keyframes.h"
 #include "scene/timed_map.h"
@@ -50,12 +51,18 @@ Points narrowed_boundary(const Mesh& mesh, double by) {
   return points;
 }
 
-std::string clipped(const std::string& group, const std::string& id, const std::string& path) {
-  return "<clipPath id=\"" + id + "\"><path clip-rule=\"evenodd\" d=\"" + path +
+std::string clipped(const std::string& group, const std::string& id, const std::string& rule,
+                    const std::string& path) {
+  return "<clipPath id=\"" + id + "\"><path clip-rule=\"" + rule + "\" d=\"" + path +
          "\"/></clipPath><g clip-path=\"url(#" + id + ")\">" + group + "</g>";
 }
 
 }  // namespace
+
+double pixel_size_of(const SourceDrawing& drawing) {
+  const SvgDocument document = svg_document_of(drawing.text, drawing.name);
+  return document.width / document.columns;
+}
 
 std::string placed_drawing(const SourceDrawing& drawing, const DrawingPlace& place,
                            std::vector<std::string>& losses) {
@@ -94,16 +101,16 @@ std::string layer_drawing(const SourceDrawing& drawing, const Deformation& defor
   Points posed;
   for (const int v : mesh->boundary) posed.push_back(f[v]);
   DrawingPlace rest = place;
-  rest.prefix += "rest-";
+  rest.prefix = "rest-" + place.prefix;
   std::vector<std::string> same_losses;
   const std::string everywhere = "M-" + decimal(kFar, 0) + " -" + decimal(kFar, 0) + "h" +
                                  decimal(2 * kFar, 0) + "v" + decimal(2 * kFar, 0) + "h-" +
                                  decimal(2 * kFar, 0) + "Z";
   const Points hole = narrowed_boundary(*mesh, kOverlap / std::abs(place.to_canvas.factor));
   return "<g>" +
-         clipped(placed_drawing(drawing, rest, same_losses), rest.prefix + "outside",
+         clipped(placed_drawing(drawing, rest, same_losses), "outside-" + place.prefix, "evenodd",
                  everywhere + path_of(hole, loops, place)) +
-         clipped(group, place.prefix + "cage", path_of(posed, loops, place)) + "</g>";
+         clipped(group, "cage-" + place.prefix, "nonzero", path_of(posed, loops, place)) + "</g>";
 }
 
 }  // namespace holomorph

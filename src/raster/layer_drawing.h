@@ -17,6 +17,10 @@ struct SourceDrawing {
   const Image& image;
 };
 
+/// The size of a pixel of a drawing's picture, in units of 1/96 inch: 1 if the picture has the
+/// drawing's own size. Throws Error.
+double pixel_size_of(const SourceDrawing& drawing);
+
 /// Where a drawing goes.
 struct DrawingPlace {
   Similarity to_canvas;  ///< from the layer's plane to pixels of the canvas, y up

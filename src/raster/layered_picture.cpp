@@ -30,12 +30,13 @@ DrawnLayer on_canvas(const RasterResult& drawn, const RasterResult& canvas, doub
 class LayerDrawer {
  public:
   LayerDrawer(const Scene& scene, const PictureOptions& options, PictureMaker& maker,
-              const RasterResult& canvas, Pictures drawings)
+              const RasterResult& canvas, Pictures drawings, bool writes_drawings)
       : scene_(scene),
         options_(options),
         maker_(maker),
         canvas_(canvas),
-        drawings_(std::move(drawings)) {}
+        drawings_(std::move(drawings)),
+        writes_drawings_(writes_drawings) {}
 
   /// A layer as it is bent, with its ink. None if it has no picture.
   std::optional<DrawnLayer> layer(size_t i) {
@@ -47,6 +48,8 @@ class LayerDrawer {
       drawn = on_canvas(*pixels, canvas_, options_.scale, title_of_layer(scene_, i));
     }
     if (!drawn) return drawn;
+    if (writes_drawings_ && it.blending == Blending::add)
+      losses_.push_back(drawn->name + ": its blending mode, add, is only shown by web browsers");
     drawn->visible = it.visible;
     drawn->opacity = it.opacity;
     drawn->blending = it.blending;
@@ -80,6 +83,14 @@ class LayerDrawer {
 
   std::vector<std::string> losses() && { return std::move(losses_); }
 
+  /// The size of a pixel of the canvas, so that the lowest drawing keeps its size.
+  double pixel_size() const {
+    for (const SharedLayer& layer : scene_.layers)
+      if (const auto text = drawings_.drawing(*layer))
+        return pixel_size_of({*text, layer->image->file, *drawings_.find(*layer->image)->image});
+    return 1;
+  }
+
  private:
   DrawnLayer of_drawing(size_t i, const std::string& text, const std::string& prefix, bool bent) {
     const Layer& it = *scene_.layers[i];
@@ -95,8 +106,6 @@ class LayerDrawer {
       place.to_canvas = composed(to_canvas, maker_.placement(i, options_.time));
       drawn.drawing = layer_drawing(source, it.deformation, scene_.animation.linear_blend,
                                     options_.time, place, losses);
-      if (it.blending == Blending::add)
-        losses.push_back("its blending mode, add, is only shown by web browsers");
       for (const std::string& loss : losses) losses_.push_back(drawn.name + ": " + loss);
     } else {
       drawn.drawing = placed_drawing(source, place, losses);
@@ -109,6 +118,7 @@ class LayerDrawer {
   PictureMaker& maker_;
   const RasterResult& canvas_;
   Pictures drawings_;  ///< only of drawings that stay drawings
+  bool writes_drawings_;
   std::vector<std::string> losses_;
 };
 
@@ -124,7 +134,8 @@ LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
   LayeredPicture picture;
   picture.merged = canvas.image;
   if (scene.background.fill == Background::Fill::color) picture.background = scene.background.color;
-  LayerDrawer drawer(scene, options, maker, canvas, keeps_drawings ? other_pictures : Pictures());
+  LayerDrawer drawer(scene, options, maker, canvas, keeps_drawings ? other_pictures : Pictures(),
+                     keeps_drawings);
   if (scene.background.fill == Background::Fill::original) picture.layers = drawer.originals();
   std::set<size_t> added_layers;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
@@ -136,6 +147,7 @@ LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
     drawn->clipped = base.has_value();
     picture.layers.push_back(std::move(*drawn));
   }
+  picture.pixel_size = drawer.pixel_size();
   picture.losses = std::move(drawer).losses();
   return picture;
 }

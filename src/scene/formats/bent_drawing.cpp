@@ -14,13 +14,15 @@
 #include "core/error.h"
 #include "core/geometry/curve.h"
 #include "scene/formats/path_writer.h"
+#include "scene/formats/svg_cleaning.h"
 #include "scene/formats/svg_document.h"
+#include "scene/formats/svg_paint.h"
 #include "scene/formats/svg_styles.h"
 
 namespace holomorph {
 namespace {
 
-constexpr size_t kMostElements = 1'000'000;
+constexpr size_t kMostElements = 200'000, kMostCurves = 500'000;
 constexpr int kDeepestUse = 32;
 
 /// The average of derivatives that preserves orientation: rotations and stretches are averaged
@@ -95,17 +97,16 @@ class Bender {
     group_ = result_.append_child("g");
     for (const pugi::xml_attribute& attribute : root.attributes())
       if (std::string(attribute.name()).starts_with("xmlns:")) group_.append_copy(attribute);
-    for (const char* inherited :
-         {"style", "fill", "stroke", "stroke-width", "font-family", "font-size"})
-      if (const auto attribute = root.attribute(inherited)) group_.append_copy(attribute);
     definitions_ = group_.append_child("defs");
     frames_.push_back({});  // the result's own
-    add_children(root, group_, {drawing_.placement, 0, drawing_.viewport, false, 0});
+    add_root(root);
+    cut_off_overhang();
     place_frames();
     write_paths();
     write_transforms();
+    remove_unused_clipping(group_);
     if (!definitions_.first_child()) group_.remove_child(definitions_);
-    if (!options_.prefix.empty()) prefix_ids(group_);
+    if (!options_.prefix.empty()) prefix_ids(group_, options_.prefix);
     std::ostringstream text;
     group_.print(text, "", pugi::format_raw);
     if (drawing_.ignores_rules) losses_.insert("some of its style rules are ignored");
@@ -125,10 +126,11 @@ class Bender {
 
   struct Frame {
     size_t parent = 0;
-    pugi::xml_node node = {};  ///< gets the transform
-    Affine to_picture = {};    ///< from its user units
-    Points samples = {};       ///< points of the picture, y down, at which the map is averaged
-    Affine placement = {};     ///< from its user units to the result
+    pugi::xml_node node = {};      ///< gets the transform
+    Affine to_picture = {};        ///< from its user units
+    Points samples = {};           ///< points of the picture, y down, at which the map is averaged
+    Affine placement = {};         ///< from its user units to the result
+    size_t offered = 0, step = 1;  ///< every step-th point that is offered becomes a sample
   };
 
   /// A copied shape: some of the curves.
@@ -150,9 +152,8 @@ class Bender {
 
   void count_element() {
     if (++elements_ > kMostElements)
-      throw Error(
-          ErrorKind::bad_input,
-          drawing_.name + ": with all copies, the drawing has more than a million elements");
+      throw Error(ErrorKind::bad_input,
+                  drawing_.name + ": with all copies, the drawing has more than 200,000 elements");
   }
 
   void add_children(const pugi::xml_node& from, pugi::xml_node to, const Place& place) {
@@ -166,19 +167,10 @@ class Bender {
     }
     count_element();
     const std::string kind = local_name(node);
-    static const std::set<std::string> kDropped{"script", "clipPath",  "mask",
-                                                "symbol", "namedview", "foreignObject"};
-    if (kDropped.contains(kind)) {
-      if (kind == "foreignObject") losses_.insert("its embedded pages are left out");
-      return;
-    }
-    if (kind.starts_with("animate") || kind == "set") {
-      losses_.insert("its animation is left out");
-      return;
-    }
+    if (kind == "symbol" || !is_kept(node, losses_)) return;
     if (kind == "defs") return add_definitions(node, to);
     if (kind == "use") return add_use(node, to, place);
-    if (kind == "svg") return add_viewport(node, to, place, {});
+    if (kind == "svg") return add_viewport(node, to, place, {}, {});
     if (kind == "switch") return add_switch(node, to, place);
     if (is_shape(node)) return add_shape(node, to, place);
     if (kind == "g" || kind == "a") {
@@ -186,37 +178,65 @@ class Bender {
       return add_children(node, copy, inside);
     }
     if (kind == "text" || kind == "image") return add_whole(node, to, place);
-    strip(to.append_copy(node));  // gradients, titles, metadata and such
+    add_definition(to.append_copy(node));  // gradients, titles and such
   }
 
-  /// Definitions stay as they are, except those that are bent with what refers to them.
-  void add_definitions(const pugi::xml_node& node, pugi::xml_node to) {
-    pugi::xml_node copy = to.append_copy(node);
-    std::vector<pugi::xml_node> bent;
-    for (const pugi::xml_node& child : copy.children())
-      if (local_name(child) == "clipPath" || local_name(child) == "mask") bent.push_back(child);
-    for (const pugi::xml_node& child : bent) copy.remove_child(child);
-    strip(copy);
+  /// The root becomes a group within that of the drawing.
+  void add_root(const pugi::xml_node& root) {
+    // The root's own transform acts on its own size, before that becomes the size of the picture.
+    const Affine enlarged{drawing_.columns / drawing_.width, 0, 0};
+    const Affine own = composed(inverse(enlarged), drawing_.placement);
+    add_viewport_content(root, group_, {enlarged, 0, drawing_.viewport, false, 0}, own,
+                         drawing_.viewport);
   }
 
-  /// Removes what could run or change the drawing.
-  static void strip(pugi::xml_node node) {
-    std::vector<pugi::xml_node> scripts;
-    for (pugi::xml_node child : node.children()) {
-      const std::string kind = local_name(child);
-      if (kind == "script" || kind.starts_with("animate"))
-        scripts.push_back(child);
-      else
-        strip(child);
+  /// Clips the drawing if it extends beyond its page, like the picture that stands for it.
+  void cut_off_overhang() {
+    constexpr double kSlack = 0.5;  // pixels
+    const Box page{0, 0, double(drawing_.columns), double(drawing_.rows)};
+    const bool overhangs = drawn_.left < page.left - kSlack ||
+                           drawn_.bottom < page.bottom - kSlack ||
+                           drawn_.right > page.right + kSlack || drawn_.top > page.top + kSlack;
+    if (!drawn_.empty() && overhangs) clip(group_, page, {Affine{}, 0, drawing_.viewport, true, 0});
+  }
+
+  /// Clips a copied element by a rectangle in the user units of `place`.
+  void clip(pugi::xml_node copy, const Box& box, const Place& place) {
+    const std::string id = new_id();
+    pugi::xml_node clip = definitions_.append_child("clipPath");
+    clip.append_attribute("id").set_value(id.c_str());
+    Subpath rectangle{Complex(box.left, box.bottom)};
+    Complex from = rectangle.start;
+    for (const Complex to : {Complex(box.right, box.bottom), Complex(box.right, box.top),
+                             Complex(box.left, box.top)}) {
+      rectangle.segments.push_back({from, to});
+      from = to;
     }
-    for (const pugi::xml_node& child : scripts) node.remove_child(child);
-    strip_attributes(node);
+    rectangle.closed = true;
+    Place inside = place;
+    inside.clips = true;
+    add_curves(clip.append_child("path"), {rectangle}, inside);
+    set_property(copy, "clip-path", "url(#" + id + ")");
   }
-  static void strip_attributes(pugi::xml_node node) {
-    std::vector<std::string> removed;
-    for (const pugi::xml_attribute& attribute : node.attributes())
-      if (std::string(attribute.name()).starts_with("on")) removed.push_back(attribute.name());
-    for (const std::string& name : removed) node.remove_attribute(name.c_str());
+
+  std::string new_id() {
+    std::string id;
+    do id = "bent-" + std::to_string(++made_ids_);
+    while (by_id_.contains(id));
+    return id;
+  }
+
+  /// Definitions stay as they are. Those that are bent are copied by what refers to them.
+  void add_definitions(const pugi::xml_node& node, pugi::xml_node to) {
+    add_definition(to.append_copy(node));
+  }
+  void add_definition(pugi::xml_node copy) {
+    clean(copy, losses_);
+    const auto resolve = [&](const auto& self, pugi::xml_node node) -> void {
+      resolve_percentages(node, drawing_.viewport);
+      for (const pugi::xml_node& child : node.children()) self(self, child);
+    };
+    resolve(resolve, copy);
   }
 
   /// Copies an element without its children. What edits it as another kind of shape is left out.
@@ -225,10 +245,12 @@ class Bender {
     for (const pugi::xml_attribute& attribute : node.attributes()) {
       const std::string name = attribute.name();
       const bool stays = !name.starts_with("sodipodi:") && name != "inkscape:path-effect" &&
-                         name != "inkscape:original-d" && !name.starts_with("on") &&
-                         name != "transform" && (name != "id" || place.uses == 0);
+                         name != "inkscape:original-d" && name != "transform" && name != "xmlns" &&
+                         (name != "id" || place.uses == 0);
       if (stays) copy.append_copy(attribute);
     }
+    clean_attributes(copy, losses_);
+    resolve_percentages(copy, place.viewport);
     if (!property_of(copy, "transform").empty()) set_property(copy, "transform", "");
     return copy;
   }
@@ -242,16 +264,27 @@ class Bender {
     frames_.push_back({parent, node, to_picture});
     return frames_.size() - 1;
   }
-  /// Adds a sample to a frame and to those around it.
+  /// Offers a sample to a frame and to those around it.
   void sample(size_t frame, Complex at) {
-    for (; frame != 0; frame = frames_[frame].parent) frames_[frame].samples.push_back(at);
+    constexpr size_t kMostSamples = 1024;
+    for (; frame != 0; frame = frames_[frame].parent) {
+      Frame& it = frames_[frame];
+      if (it.offered++ % it.step != 0) continue;
+      it.samples.push_back(at);
+      if (it.samples.size() < kMostSamples) continue;
+      for (size_t i = 0; 2 * i < it.samples.size(); ++i) it.samples[i] = it.samples[2 * i];
+      it.samples.resize(kMostSamples / 2);
+      it.step *= 2;
+    }
   }
 
+  /// Copies a group without its children. `viewbox` is what its own content is mapped by.
   std::pair<pugi::xml_node, Place> add_group(const pugi::xml_node& node, pugi::xml_node to,
-                                             const Place& place) {
+                                             const Place& place, const Affine& viewbox = {}) {
     pugi::xml_node copy = copy_of(node, to, place);
+    copy.set_name(local_name(node) == "a" ? "a" : "g");
     Place within = place;
-    within.to_picture = inside(node, place);
+    within.to_picture = composed(inside(node, place), viewbox);
     const std::string filter = property_of(node, "filter");
     if (!filter.empty() && filter != "none" && !place.clips)
       within.frame = new_frame(copy, within.to_picture, place.frame);
@@ -259,67 +292,98 @@ class Bender {
     return {copy, within};
   }
 
+  /// Takes the first child that is not for other languages or programs. Texts in several languages
+  /// end with one for all others.
   void add_switch(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
-    pugi::xml_node group = copy_of(node, to, place);
-    group.set_name("g");
-    Place within = place;
-    within.to_picture = inside(node, place);
+    const auto [group, within] = add_group(node, to, place);
     for (const pugi::xml_node& child : node.children())
       if (child.type() == pugi::node_element && local_name(child) != "foreignObject" &&
-          !child.attribute("requiredExtensions"))
+          !child.attribute("requiredExtensions") && !child.attribute("systemLanguage"))
         return add(child, group, within);
   }
 
   /// An inner svg, or a symbol that is used with a size.
   void add_viewport(const pugi::xml_node& node, pugi::xml_node to, const Place& place,
-                    const std::optional<Viewport>& used) {
-    const auto length = [&](const char* name, double whole, double otherwise) {
-      return length_of(node.attribute(name).as_string(), whole).value_or(otherwise);
-    };
+                    const std::optional<double>& used_width,
+                    const std::optional<double>& used_height) {
     const Viewport& outer = place.viewport;
     const bool is_symbol = local_name(node) == "symbol";
-    const Complex corner =
-        is_symbol ? 0 : Complex(length("x", outer.width, 0), length("y", outer.height, 0));
-    const Viewport size = used.value_or(Viewport{length("width", outer.width, outer.width),
-                                                 length("height", outer.height, outer.height)});
-    pugi::xml_node copy = copy_of(node, to, place);
-    for (const char* name :
-         {"x", "y", "width", "height", "viewBox", "preserveAspectRatio", "version"})
-      copy.remove_attribute(name);
-    copy.set_name("g");
+    const auto length = [&](const char* name, double whole, double otherwise) {
+      return is_symbol ? otherwise
+                       : length_of(node.attribute(name).as_string(), whole).value_or(otherwise);
+    };
+    const Complex corner(length("x", outer.width, 0), length("y", outer.height, 0));
+    const Viewport size{used_width.value_or(length("width", outer.width, outer.width)),
+                        used_height.value_or(length("height", outer.height, outer.height))};
+    const std::string overflow = property_of(node, "overflow");
+    if (!is_symbol && !place.clips && overflow != "visible" && overflow != "auto") {
+      to = to.append_child("g");
+      const Box box{corner.real(), corner.imag(), corner.real() + size.width,
+                    corner.imag() + size.height};
+      Place around = place;
+      around.to_picture = inside(node, place);
+      clip(to, box, around);
+    }
     const auto box = viewbox_of(node);
-    Place within = place;
-    within.to_picture = composed(inside(node, place), viewbox_map(node, corner, size));
-    within.viewport = box ? Viewport{box->width(), box->height()} : size;
+    add_viewport_content(node, to, place, viewbox_map(node, corner, size),
+                         box ? Viewport{box->width(), box->height()} : size);
+  }
+
+  void add_viewport_content(const pugi::xml_node& node, pugi::xml_node to, const Place& place,
+                            const Affine& viewbox, const Viewport& viewport) {
+    auto [copy, within] = add_group(node, to, place, viewbox);
+    for (const char* name : {"x", "y", "width", "height", "viewBox", "preserveAspectRatio",
+                             "version", "baseProfile", "overflow"})
+      copy.remove_attribute(name);
+    within.viewport = viewport;
     add_children(node, copy, within);
   }
 
   void add_use(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
-    std::string target = node.attribute("href").as_string(node.attribute("xlink:href").as_string());
+    const std::string target = href_of(node);
     const pugi::xml_node original =
         target.starts_with("#") ? element(target.substr(1)) : pugi::xml_node();
     if (!original || place.uses >= kDeepestUse) return;
-    auto [copy, within] = add_group(node, to, place);
-    copy.set_name("g");
-    for (const char* name : {"x", "y", "width", "height", "href", "xlink:href"})
-      copy.remove_attribute(name);
     const auto length = [&](const char* name, double whole) {
       return length_of(node.attribute(name).as_string(), whole);
     };
     const Complex by{length("x", place.viewport.width).value_or(0),
                      length("y", place.viewport.height).value_or(0)};
+    if (place.clips) return add_clipping_use(node, original, to, place, by);
+    auto [copy, within] = add_group(node, to, place);
+    for (const char* name : {"x", "y", "width", "height", "href", "xlink:href"})
+      copy.remove_attribute(name);
     within.to_picture = composed(within.to_picture, {.shift = by});
     ++within.uses;
     const std::string kind = local_name(original);
-    if (kind == "symbol" || kind == "svg") {
-      const double width = length("width", place.viewport.width).value_or(place.viewport.width),
-                   height = length("height", place.viewport.height).value_or(place.viewport.height);
-      add_viewport(original, copy, within, Viewport{width, height});
-    } else {
+    if (kind == "symbol" || kind == "svg")
+      add_viewport(original, copy, within, length("width", place.viewport.width),
+                   length("height", place.viewport.height));
+    else
       add(original, copy, within);
-    }
   }
 
+  /// A copy within a clipping path, where there are no groups.
+  void add_clipping_use(const pugi::xml_node& node, const pugi::xml_node& original,
+                        pugi::xml_node to, const Place& place, Complex by) {
+    if (!is_shape(original) && local_name(original) != "text") return;
+    Place within = place;
+    within.to_picture = composed(inside(node, place), {.shift = by});
+    ++within.uses;
+    add(original, to, within);
+    pugi::xml_node copy = to.last_child();
+    for (const char* property : {"clip-rule", "display", "visibility"})
+      if (property_of(copy, property).empty() && !property_of(node, property).empty())
+        set_property(copy, property, property_of(node, property));
+  }
+
+  static bool has_markers(const pugi::xml_node& node) {
+    return std::ranges::any_of(std::array{"marker-start", "marker-mid", "marker-end", "marker"},
+                               [&](const char* property) {
+                                 const std::string value = inherited_property(node, property);
+                                 return !value.empty() && value != "none";
+                               });
+  }
   static bool has_stroke(const pugi::xml_node& node) {
     const std::string stroke = inherited_property(node, "stroke");
     return !stroke.empty() && stroke != "none";
@@ -331,7 +395,8 @@ class Bender {
   /// Whether what is drawn on a shape depends on its user units.
   static bool depends_on_units(const pugi::xml_node& node) {
     const std::string filter = property_of(node, "filter");
-    return has_stroke(node) || inherited_property(node, "fill").starts_with("url(") ||
+    return has_stroke(node) || has_markers(node) ||
+           inherited_property(node, "fill").starts_with("url(") ||
            (!filter.empty() && filter != "none");
   }
 
@@ -343,16 +408,19 @@ class Bender {
     // What fills and clips is closed in any case. It must be before it is bent.
     if (!has_area(path))
       set_property(copy, "fill", "none");
-    else if (place.clips || !has_stroke(copy))
+    else if (place.clips || (!has_stroke(copy) && !has_markers(copy)))
       for (Subpath& subpath : path) subpath.closed = true;
+    else if (inherited_property(copy, "fill") != "none" &&
+             std::ranges::any_of(path, [](const Subpath& subpath) {
+               return !subpath.closed && subpath.end() != subpath.start;
+             }))
+      losses_.insert("the closing edges of filled, open lines stay straight");
     if (!place.clips && depends_on_units(copy)) {
       within.frame = new_frame(copy, within.to_picture, place.frame);
       Box box;
       include(box, path);
       for (const char* paint : {"fill", "stroke"}) use_own_units(copy, paint, box);
-      if (!inherited_property(copy, "marker-mid").empty() &&
-          inherited_property(copy, "marker-mid") != "none")
-        losses_.insert("the number of its markers may differ");
+      if (has_markers(copy)) losses_.insert("the number of its markers may differ");
     }
     bend_clipping(node, copy, within);
     for (const pugi::xml_node& child : node.children())  // such as <title>
@@ -379,36 +447,57 @@ class Bender {
           throw Error(ErrorKind::bad_input, drawing_.name + ": a shape is infinitely large");
         for (const double t : {0.0, 0.5}) all.push_back(bezier_point(segment, t));
         if (&segment == &segments.back()) all.push_back(segment.back());
+        if (!place.clips)
+          for (const Complex& z : segment) drawn_.include(z);
         kept.segments.emplace_back();
         curves_.push_back(std::move(segment));
+        if (curves_.size() > kMostCurves)
+          throw Error(
+              ErrorKind::bad_input,
+              drawing_.name + ": with all copies, the drawing has more than 500,000 curves");
       }
     }
     const size_t step = all.size() / kMostSamples + 1;
-    for (size_t i = 0; i < all.size(); i += step) sample(place.frame, all[i]);
+    for (size_t i = 0; i < all.size() && !place.clips; i += step) sample(place.frame, all[i]);
     shapes_.push_back(std::move(shape));
   }
 
   /// Texts and pictures move as a whole.
   void add_whole(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
     const bool is_text = local_name(node) == "text";
+    if (!is_text && !href_of(node).starts_with("data:")) {
+      losses_.insert("its linked pictures are left out");
+      return;
+    }
     losses_.insert(is_text ? "its texts are moved and turned, but not bent"
                            : "its embedded pictures are moved and turned, but not bent");
     Place within = place;
     within.to_picture = inside(node, place);
     pugi::xml_node copy = copy_of(node, to, place);
     for (const pugi::xml_node& child : node.children()) copy.append_copy(child);
-    strip(copy);
+    add_definition(copy);
     within.frame = new_frame(copy, within.to_picture, place.frame);
     const auto length = [&](const char* name, double whole) {
       return length_of(node.attribute(name).as_string(), whole).value_or(0);
     };
-    const double x = length("x", place.viewport.width), y = length("y", place.viewport.height);
+    const double x = is_text ? first_place(node, "x", place.viewport.width)
+                             : length("x", place.viewport.width),
+                 y = is_text ? first_place(node, "y", place.viewport.height)
+                             : length("y", place.viewport.height);
     const double width = is_text ? 0 : length("width", place.viewport.width),
                  height = is_text ? 0 : length("height", place.viewport.height);
     for (const double u : {0.0, 0.5, 1.0})
       for (const double v : {0.0, 0.5, 1.0})
         sample(within.frame, within.to_picture(Complex(x + u * width, y + v * height)));
     bend_clipping(node, copy, within);
+  }
+
+  /// Where a text starts: its parts may have positions of their own, for each letter.
+  static double first_place(const pugi::xml_node& text, const char* name, double whole) {
+    pugi::xml_node part = text;
+    while (part && !part.attribute(name)) part = part.first_child();
+    const std::string all = part.attribute(name).as_string();
+    return length_of(all.substr(0, all.find_first_of(" ,")), whole).value_or(0);
   }
 
   /// Gives an element copies of its clipping path and mask that are bent like the element.
@@ -422,7 +511,7 @@ class Bender {
       if (within.uses >= kDeepestUse) continue;
       count_element();
       const bool clips = kind == "clipPath";
-      const std::string id = "bent-" + std::to_string(++made_ids_);
+      const std::string id = new_id();
       pugi::xml_node bent = definitions_.append_child(kind.c_str());
       for (const pugi::xml_attribute& attribute : original.attributes())
         if (const std::string name = attribute.name();
@@ -443,56 +532,52 @@ class Bender {
                        affine_of_matrix(box.width(), 0, 0, box.height(), box.left, box.bottom));
       }
       place.to_picture = composed(place.to_picture, transform_of(original));
-      if (!clips) masks_.emplace_back(bent, within.frame);
       bend_clipping(original, bent, place);
-      add_children(original, bent, place);
+      if (clips)
+        add_children(original, bent, place);
+      else
+        add_mask_content(node, original, bent, within, place);
       set_property(copy, property, "url(#" + id + ")");
     }
   }
 
-  /// If a shape's paint is a gradient that refers to its bounding box, gives it a copy of the
-  /// gradient in the shape's user units, because the bent shape has another box.
-  void use_own_units(pugi::xml_node copy, const char* paint, const Box& box) {
-    const pugi::xml_node gradient = element(id_in_url(inherited_property(copy, paint)));
-    const std::string kind = gradient ? local_name(gradient) : "";
-    if ((kind != "linearGradient" && kind != "radialGradient") || box.empty()) return;
-    const auto attribute = [&](const std::string& name) {
-      pugi::xml_node from = gradient;
-      for (int k = 0; k < kDeepestUse && from; ++k) {
-        if (from.attribute(name.c_str()))
-          return std::string(from.attribute(name.c_str()).as_string());
-        const std::string next =
-            from.attribute("href").as_string(from.attribute("xlink:href").as_string());
-        from = next.starts_with("#") ? element(next.substr(1)) : pugi::xml_node();
-      }
-      return std::string();
+  /// A mask shows nothing outside its region.
+  void add_mask_content(const pugi::xml_node& node, const pugi::xml_node& original,
+                        pugi::xml_node bent, const Place& within, const Place& place) {
+    masks_.emplace_back(bent, within.frame);
+    const bool in_box =
+        std::string(original.attribute("maskUnits").as_string()) != "userSpaceOnUse";
+    const Box box = in_box ? extent_of(node, within.viewport)
+                           : Box{0, 0, within.viewport.width, within.viewport.height};
+    const auto length = [&](const char* name, double whole, const char* otherwise) {
+      const std::string text = original.attribute(name).as_string(otherwise);
+      if (!in_box) return length_of(text, whole).value_or(0);
+      return whole * length_of(text, 1).value_or(0);
     };
-    if (attribute("gradientUnits") == "userSpaceOnUse") return;
-    const std::string id = "bent-" + std::to_string(++made_ids_);
-    pugi::xml_node own = definitions_.append_child(kind.c_str());
-    own.append_attribute("id").set_value(id.c_str());
-    own.append_attribute("xlink:href")
-        .set_value((std::string("#") + gradient.attribute("id").as_string()).c_str());
-    own.append_attribute("gradientUnits").set_value("userSpaceOnUse");
-    const Affine map =
-        composed(affine_of_matrix(std::max(box.width(), 1e-9), 0, 0, std::max(box.height(), 1e-9),
-                                  box.left, box.bottom),
-                 transform_of(attribute("gradientTransform")));
-    own.append_attribute("gradientTransform").set_value(matrix_text(map).c_str());
-    const auto set = [&](const char* name, const std::string& otherwise) {
-      const std::string text = attribute(name);
-      const double x = length_of(text.empty() ? otherwise : text, 1).value_or(0);
-      own.append_attribute(name).set_value(number_text(x).c_str());
-    };
-    if (kind == "linearGradient") {
-      for (const char* name : {"x1", "y1", "y2"}) set(name, "0");
-      set("x2", "1");
-    } else {
-      for (const char* name : {"cx", "cy", "r"}) set(name, "0.5");
-      for (const auto& [name, otherwise] : {std::pair{"fx", "cx"}, {"fy", "cy"}})
-        set(name, attribute(otherwise).empty() ? "0.5" : attribute(otherwise));
+    if (!box.empty()) {
+      bent = bent.append_child("g");
+      Box region;
+      region.include({(in_box ? box.left : 0) + length("x", box.width(), "-10%"),
+                      (in_box ? box.bottom : 0) + length("y", box.height(), "-10%")});
+      region.include({region.left + length("width", box.width(), "120%"),
+                      region.bottom + length("height", box.height(), "120%")});
+      clip(bent, region, within);
     }
-    set_property(copy, paint, "url(#" + id + ")");
+    add_children(original, bent, place);
+  }
+
+  /// If a shape's paint refers to its bounding box, gives it a copy of the paint in the shape's
+  /// user units, because the bent shape has another box.
+  void use_own_units(pugi::xml_node copy, const char* property, const Box& box) {
+    const PaintServer paint(inherited_property(copy, property), find_);
+    if ((!paint.is_gradient() && !paint.is_pattern()) || !paint.uses_bounding_box()) return;
+    if (paint.is_pattern() && paint.has_content_in_box())
+      losses_.insert("some patterns depend on the sizes of the bent shapes");
+    if (box.empty() || !(box.width() > 0) || !(box.height() > 0))
+      return set_property(copy, property, paint.fallback());
+    const std::string id = new_id();
+    paint.append_in_user_units(definitions_, id, box);
+    set_property(copy, property, "url(#" + id + ")");
   }
 
   /// The map of points of the picture with y down to the result.
@@ -521,7 +606,8 @@ class Bender {
       if (paints_gradient(frame.node) && misses(map, frame.samples, {at, end}))
         losses_.insert("some gradients are moved and turned, but not bent");
       at = end;
-      if (!(std::abs(frame.placement.determinant()) > 1e-18))
+      const double size = std::abs(frame.placement.linear) + std::abs(frame.placement.anti);
+      if (!(std::abs(frame.placement.determinant()) > 1e-9 * size * size))
         frame.placement = frames_[frame.parent].placement;
     }
   }
@@ -569,26 +655,6 @@ class Bender {
     }
   }
 
-  void prefix_ids(pugi::xml_node node) const {
-    for (pugi::xml_attribute attribute : node.attributes()) {
-      const std::string name = attribute.name();
-      std::string value = attribute.as_string();
-      if (name == "id") {
-        value = options_.prefix + value;
-      } else if ((name == "href" || name == "xlink:href") && value.starts_with("#")) {
-        value = "#" + options_.prefix + value.substr(1);
-      } else {
-        for (size_t at = 0; (at = value.find("url(", at)) != std::string::npos;) {
-          at = value.find_first_not_of("\"' ", at + 4);
-          if (at == std::string::npos) break;
-          if (value[at] == '#') value.insert(at + 1, options_.prefix);
-        }
-      }
-      if (value != attribute.as_string()) attribute.set_value(value.c_str());
-    }
-    for (const pugi::xml_node& child : node.children()) prefix_ids(child);
-  }
-
   SvgDocument drawing_;
   BendingOptions options_;
   const PointValues& map_;
@@ -599,6 +665,8 @@ class Bender {
   std::vector<Shape> shapes_;
   std::vector<Points> curves_;  ///< in pixels of the picture, y down
   std::vector<std::pair<pugi::xml_node, size_t>> masks_;
+  const ElementById find_ = [this](const std::string& id) { return element(id); };
+  Box drawn_;  ///< of all curves in the picture, y down
   std::set<std::string> losses_;
   size_t elements_ = 0;
   int made_ids_ = 0;

@@ -25,9 +25,11 @@ struct BendingOptions {
 /// Bends a drawing. `map` takes the plane of the picture that stands for it (y up, in pixels) to
 /// another plane; its values must be finite. Shapes and clipping paths become paths of cubics; see
 /// curve_images(). What is relative to a shape's own coordinates follows the map's average
-/// derivative over the shape: strokes, gradients, patterns and filters. So do texts and pictures as
-/// a whole. Copies (`use`) become groups. The coordinates have y down. Throws Error{bad_input} if
-/// this is not a drawing, or if it has more than a million elements with all copies.
+/// derivative over the shape: strokes, gradients, patterns and filters. So do texts and embedded
+/// pictures as a whole. Copies (`use`) become groups, or shapes in clipping paths. What extends
+/// beyond the drawing's page is cut off, as in the picture. The coordinates have y down. Scripts,
+/// animation and references to other files are left out. Throws Error{bad_input} if this is not a
+/// drawing, or if it has more than 200,000 elements or 500,000 curves with all copies.
 BentDrawing bent_drawing(const std::string& svg, const std::string& name, const PointValues& map,
                          const BendingOptions& options);
 

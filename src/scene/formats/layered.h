@@ -54,6 +54,8 @@ struct LayeredPicture {
   /// A color below the layers, with which their blending modes do not mix. Files that need it have
   /// it as their lowest layer, and the others in a group.
   std::optional<std::array<std::uint8_t, 3>> background = {};
+  /// The size of a pixel in files that have a size, in units of 1/96 inch.
+  double pixel_size = 1;
   /// What is not as in the scene, such as "Hat: its animation is left out".
   std::vector<std::string> losses = {};
 };

@@ -37,17 +37,19 @@ std::string with_entities(const std::string& text, const std::string& name) {
   if (open == std::string::npos || text[open] == '>') return text;
   const size_t close = std::min(text.find("]", open), text.size());
   std::map<std::string, std::string, std::less<>> entities;
-  for (size_t at = open; (at = text.find("<!ENTITY", at)) < close;) {
+  const std::string declared = text.substr(open, close - open);
+  for (size_t at = 0; (at = declared.find("<!ENTITY", at)) != std::string::npos;) {
     at += 8;
-    const size_t from = text.find_first_not_of(" \t\r\n", at);
-    const size_t to = text.find_first_of(" \t\r\n", from);
-    const size_t quote = text.find_first_of("\"'>", to);
-    if (quote >= close || text[quote] == '>') continue;
-    const size_t end = text.find(text[quote], quote + 1);
-    if (end >= close) break;
-    const std::string value = text.substr(quote + 1, end - quote - 1);
+    const size_t from = declared.find_first_not_of(" \t\r\n", at);
+    const size_t to = declared.find_first_of(" \t\r\n", from);
+    const size_t quote = declared.find_first_of("\"'>", to);
+    if (quote == std::string::npos) break;
+    if (declared[quote] == '>') continue;
+    const size_t end = declared.find(declared[quote], quote + 1);
+    if (end == std::string::npos) break;
+    const std::string value = declared.substr(quote + 1, end - quote - 1);
     if (value.find_first_of("&<") == std::string::npos)
-      entities.emplace(text.substr(from, to - from), value);
+      entities.emplace(declared.substr(from, to - from), value);
     at = end;
   }
   std::string result = text.substr(0, type);
@@ -77,6 +79,15 @@ void include_extent(Box& box, const pugi::xml_node& node, const Affine& map,
                                              "pattern", "symbol",   "foreignObject"};
   if (kUnseen.contains(local_name(node))) return;
   if (is_shape(node)) include(box, path_of_shape(node, viewport), map);
+  if (local_name(node) == "image") {
+    const auto length = [&](const char* name, double whole) {
+      return length_of(node.attribute(name).as_string(), whole).value_or(0);
+    };
+    const Complex corner(length("x", viewport.width), length("y", viewport.height)),
+        size(length("width", viewport.width), length("height", viewport.height));
+    for (const Complex by : {Complex(0), Complex(size.real(), 0), size, Complex(0, size.imag())})
+      box.include(map(corner + by));
+  }
   for (const pugi::xml_node& child : node.children())
     include_extent(box, child, composed(map, transform_of(child)), viewport);
 }

@@ -32,8 +32,8 @@ SvgDocument svg_document_of(const std::string& text, const std::string& name);
 /// nested too deeply, or if entities make it too long.
 pugi::xml_document xml_of(const std::string& text, const std::string& name);
 
-/// The bounding box of the shapes in an element, in its own user units, y down: without its
-/// transform. Texts, pictures and copies (`use`) are left out. Empty if there are none.
+/// The bounding box of the shapes and pictures in an element, in its own user units, y down:
+/// without its transform. Texts and copies (`use`) are left out. Empty if there are none.
 Box extent_of(const pugi::xml_node& node, const Viewport& viewport);
 
 }  // namespace holomorph

@@ -22,7 +22,8 @@ bool is_svg(const std::string& bytes) {
   constexpr size_t kFarthest = 1 << 16;  // behind comments and entities
   const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == std::string::npos || bytes[first] != '<') return false;
-  return std::string_view(bytes).substr(first, kFarthest).find("<svg") != std::string_view::npos;
+  return std::string_view(bytes).substr(first, kFarthest).find("<svg") != std::string_view::npos ||
+         std::string_view(bytes).substr(first, kFarthest).find(":svg") != std::string_view::npos;
 }
 
 Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels) {

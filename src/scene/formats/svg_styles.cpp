@@ -145,14 +145,22 @@ bool selects(std::span<const SimpleSelector> selector, pugi::xml_node node) {
   return false;
 }
 
-std::string without_comments(std::string text) {
-  for (size_t from = 0; (from = text.find("/*", from)) != std::string::npos;) {
-    const size_t end = text.find("*/", from + 2);
-    text.erase(from, end == std::string::npos ? end : end + 2 - from);
+/// The text without what lies between two marks, and without the marks.
+std::string without(const std::string& text, std::string_view open, std::string_view close) {
+  std::string rest;
+  for (size_t at = 0; at < text.size();) {
+    const size_t from = std::min(text.find(open, at), text.size());
+    rest.append(text, at, from - at);
+    if (from == text.size()) break;
+    const size_t end = text.find(close, from + open.size());
+    at = end == std::string::npos ? text.size() : end + close.size();
   }
-  for (const std::string_view mark : {"<!--", "-->"})
-    for (size_t at; (at = text.find(mark)) != std::string::npos;) text.erase(at, mark.size());
-  return text;
+  return rest;
+}
+
+std::string without_comments(const std::string& text) {
+  // The marks of XML comments may surround a style sheet, which counts nevertheless.
+  return without(without(without(text, "/*", "*/"), "<!--", ""), "-->", "");
 }
 
 /// The rules of style sheets.
@@ -221,12 +229,12 @@ bool inline_style_sheets(pugi::xml_node root, const std::string& name) {
     elements.push_back(node);
     if (local_name(node) == "style") styles.push_back(node);
   });
+  std::erase_if(elements, [](const pugi::xml_node& node) { return local_name(node) == "style"; });
   for (pugi::xml_node style : styles) {
     std::string text;
     for (const pugi::xml_node& part : style.children()) text += part.value();
-    sheets.add(without_comments(std::move(text)));
+    sheets.add(without_comments(text));
     style.parent().remove_child(style);
-    std::erase(elements, style);
   }
   if (!sheets.at_rules.empty())
     root.prepend_child("style").append_child(pugi::node_pcdata).set_value(sheets.at_rules.c_str());

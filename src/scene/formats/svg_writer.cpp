@@ -81,11 +81,13 @@ std::string encode_svg(const LayeredPicture& picture) {
                     height = std::to_string(picture.merged.height),
                     size = " width=\"" + width + "\" height=\"" + height + "\"",
                     everywhere = " x=\"0\" y=\"0\"" + size;
+  const auto own_length = [&](int pixels) { return number_text(picture.pixel_size * pixels); };
   std::string svg =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
-      "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"" +
-      size + " viewBox=\"0 0 " + width + " " + height + "\">\n";
+      "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"";
+  svg += own_length(picture.merged.width) + "\" height=\"" + own_length(picture.merged.height) +
+         "\" viewBox=\"0 0 " + width + " " + height + "\">\n";
   const std::vector<DrawnLayer>& layers = picture.layers;
   if (std::ranges::any_of(layers, &DrawnLayer::clipped))
     svg += "<defs><filter id=\"white\" filterUnits=\"userSpaceOnUse\"" + everywhere +
