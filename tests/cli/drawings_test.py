@@ -232,7 +232,7 @@ class Drawings(Case):
                     t = numpy.clip((to * along.conj()).real / numpy.maximum(abs(along) ** 2, 1e-30), 0, 1)
                     self.assertLess(abs(to - t * along).min(axis=1).max(), 0.055)
                     # And nothing is missing.
-                    self.assertLess(abs(exact[::40, None] - sampled(curves, 33)).min(axis=1).max(), 8)
+                    self.assertLess(abs(exact[::40, None] - sampled(curves, 257)).min(axis=1).max(), 8)
                     self.assertLess(abs(ours[0] - exact[0]) + abs(ours[-1] - exact[-1]), 0.2)
 
     def test_features_of_drawings_stay(self):

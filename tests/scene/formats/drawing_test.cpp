@@ -160,7 +160,8 @@ TEST_CASE("What cannot be bent is named, and mistakes are explained") {
     const std::string use = "<use href='#a" + std::to_string(k) + "'/>";
     bomb += "<g id='a" + std::to_string(k + 1) + "'>" + use + use + "</g>";
   }
-  CHECK_THAT(complaint("<svg width='9' height='9'>" + bomb + "</svg>"), Contains("200,000 elements"));
+  CHECK_THAT(complaint("<svg width='9' height='9'>" + bomb + "</svg>"),
+             Contains("200,000 elements"));
   CHECK(losses("<g id='a'><use href='#a'/></g>").empty());
 }
 
