@@ -26,11 +26,11 @@ struct CurvePiece {
   }
 };
 
-Complex speed_of(const Points& curve, double t) {
+CurveSample sample_of(const Points& curve, double t) {
   Points differences;
   for (size_t k = 0; k + 1 < curve.size(); ++k)
     differences.push_back(static_cast<double>(curve.size() - 1) * (curve[k + 1] - curve[k]));
-  return bezier_point(differences, t);
+  return {bezier_point(curve, t), bezier_point(differences, t)};
 }
 
 /// The images of many points of curves.
@@ -40,8 +40,9 @@ class CurveSamples {
       : curves_(curves), map_(map) {}
 
   void ask(size_t curve, double t) {
-    points_.push_back(bezier_point(curves_[curve], t));
-    speeds_.push_back(speed_of(curves_[curve], t));
+    const CurveSample sample = sample_of(curves_[curve], t);
+    points_.push_back(sample.at);
+    speeds_.push_back(sample.speed);
   }
   /// What was asked for since the last call.
   std::vector<CurveSample> answers() {
@@ -62,6 +63,38 @@ class CurveSamples {
   Points points_, speeds_;
 };
 
+constexpr double kInside[] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875};
+constexpr size_t kCount = std::size(kInside);
+
+/// How far the errors are from 0 between two samples that lie `step` apart. A curve with a kink,
+/// which maps that are linear in triangles have, may be farthest off at the kink, where the lines
+/// that continue the errors from both sides meet. Smooth errors between samples are below that.
+double largest_error(const CurveSample& a, const CurveSample& b, double step) {
+  const Complex chord = (b.at - a.at) / step;
+  const double rise = std::abs(a.speed - chord), fall = std::abs(b.speed - chord);
+  const double peak = rise + fall > 0 ? step * rise * fall / (rise + fall) : 0;
+  return std::max(std::abs(a.at), std::abs(b.at)) + peak;
+}
+
+/// How far the piece's cubic is from the image, of which `inside` are samples.
+double largest_error(const CurvePiece& piece, std::span<const CurveSample> inside) {
+  const Points cubic = piece.cubic();
+  CurveSample before{0, 0};
+  double before_t = 0, largest = 0;
+  for (size_t k = 0; k <= kCount; ++k) {
+    const double t = k < kCount ? kInside[k] : 1;
+    CurveSample error{0, 0};
+    if (k < kCount) {
+      const CurveSample ours = sample_of(cubic, t);
+      error = {ours.at - inside[k].at, ours.speed - (piece.to - piece.from) * inside[k].speed};
+    }
+    largest = std::max(largest, largest_error(before, error, t - before_t));
+    before = error;
+    before_t = t;
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
@@ -73,11 +106,7 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
   const std::vector<CurveSample> ends = samples.answers();
   for (size_t c = 0; c < curves.size(); ++c)
     open.push_back({c, 0, 1, ends[2 * c], ends[2 * c + 1]});
-  // The error of a cubic Hermite interpolant of a smooth curve is largest near 1/2. That of a curve
-  // with kinks, which maps that are linear in triangles have, may be largest anywhere.
-  constexpr double kInside[] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875};
-  constexpr size_t kCount = std::size(kInside);
-  constexpr int kMostHalvings = 12;
+  constexpr int kMostHalvings = 20;
   for (int halvings = 0; !open.empty(); ++halvings) {
     for (const CurvePiece& piece : open)
       for (const double t : kInside)
@@ -86,15 +115,12 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
     std::vector<CurvePiece> halves;
     for (size_t i = 0; i < open.size(); ++i) {
       const CurvePiece& piece = open[i];
-      const Points cubic = piece.cubic();
-      double off = 0;
-      for (size_t k = 0; k < kCount; ++k)
-        off = std::max(off, std::abs(bezier_point(cubic, kInside[k]) - inside[kCount * i + k].at));
-      if (off <= tolerance || halvings == kMostHalvings) {
+      const std::span its = std::span(inside).subspan(kCount * i, kCount);
+      if (halvings == kMostHalvings || largest_error(piece, its) <= tolerance) {
         finished.push_back(piece);
         continue;
       }
-      const CurveSample& middle = inside[kCount * i + kCount / 2];
+      const CurveSample& middle = its[kCount / 2];
       halves.push_back({piece.curve, piece.from, piece.middle(), piece.start, middle});
       halves.push_back({piece.curve, piece.middle(), piece.to, middle, piece.end});
     }

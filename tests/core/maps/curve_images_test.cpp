@@ -49,6 +49,49 @@ TEST_CASE("An affine map takes each curve to a single cubic, exactly") {
   }
 }
 
+TEST_CASE("Images with kinks are as close as asked for") {
+  for (const unsigned seed : seeds_of("images with kinks", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    const std::vector<Points> curves = random_curves(random, 30);
+    std::uniform_real_distribution<double> place(50, 450), bend(-0.5, 0.5);
+    const double x = place(random), y = place(random);
+    const Complex right(bend(random), bend(random)), up(bend(random), bend(random));
+    // Continuous, and affine in each of four quadrants.
+    const PointValues map = [&](std::span<const Complex> points) {
+      std::vector<PointMap::Value> values;
+      for (const Complex& z : points) {
+        const double over_x = z.real() - x, over_y = z.imag() - y;
+        const Complex fx = 1.0 + (over_x > 0 ? right : 0), fy = kI + (over_y > 0 ? up : 0);
+        values.push_back({z + right * std::max(over_x, 0.0) + up * std::max(over_y, 0.0),
+                          0.5 * (fx - kI * fy), 0.5 * (fx + kI * fy)});
+      }
+      return values;
+    };
+    constexpr double kTolerance = 0.05;
+    const auto images = curve_images(curves, map, kTolerance);
+    double farthest = 0;
+    for (size_t i = 0; i < curves.size(); ++i)
+      for (const Points& piece : images[i])
+        for (const double along : {0.03, 0.11, 0.19, 0.28, 0.45, 0.52, 0.69, 0.83, 0.94}) {
+          const Complex ours = bezier_point(piece, along);
+          // The nearest of evenly spaced points of the true image, then of denser ones around it.
+          double nearest = 1e9, nearest_t = 0.5;
+          for (const double reach : {0.5, 2e-3, 1e-5}) {
+            const double around = nearest_t;
+            for (int k = -500; k <= 500; ++k) {
+              const double t = std::clamp(around + reach * k / 500, 0.0, 1.0);
+              const Complex z = bezier_point(curves[i], t);
+              const double off = std::abs(map({&z, 1})[0].f - ours);
+              if (off < nearest) std::tie(nearest, nearest_t) = std::pair(off, t);
+            }
+          }
+          farthest = std::max(farthest, nearest);
+        }
+    CHECK(farthest < kTolerance + 1e-3);
+  }
+}
+
 TEST_CASE("Images of curves are as close as asked for, and smooth") {
   for (const unsigned seed : seeds_of("images of curves", {1, 2, 3})) {
     std::mt19937 random(seed);
