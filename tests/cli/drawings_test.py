@@ -216,14 +216,15 @@ class Drawings(Case):
                 height = self.size_of("r.png")[1]
                 written = [placed_cubics_of(path) for path in ElementTree.parse(svg).iter(SVG + "path") if path.get("fill") == "none"]
                 self.assertEqual(len(written), len(shapes))
-                for points, curves in zip(shapes, written):
-                    rest = sampled([points], 20001)
-                    self.write("p.csv", "\n".join(f"{z.real!r},{h - z.imag!r}" for z in rest))
-                    out = self.good("map", scene, "--points", self.path("p.csv")).stdout
-                    exact = numpy.array([complex(*map(float, line.split(",")[:2])) for line in out.splitlines()
-                                         if re.match(r"[-+]?\d", line)])
-                    self.assertEqual(len(exact), 20001)
-                    exact = numpy.array([complex(z.real - left, bottom + height - z.imag) for z in exact])
+                dense = 20001
+                rest = numpy.concatenate([sampled([points], dense) for points in shapes])
+                self.write("p.csv", "\n".join(f"{z.real!r},{h - z.imag!r}" for z in rest.tolist()))
+                out = self.good("map", scene, "--points", self.path("p.csv")).stdout
+                lines = [line for line in out.splitlines() if re.match(r"[-+]?\d", line)]
+                x, y = numpy.loadtxt(lines, delimiter=",", usecols=(0, 1), unpack=True)
+                self.assertEqual(len(x), len(rest))
+                mapped = x - left + 1j * (bottom + height - y)
+                for exact, curves in zip(mapped.reshape(-1, dense), written):
                     ours = sampled(curves, 9)
                     # The distance to the nearest segment between exact points, which are dense because the
                     # segments cut off kinks, in the neighborhoods of the nearest eight of every tenth point.
