@@ -12,7 +12,7 @@ namespace holomorph {
 /// For each Bezier curve of degree 1 to 3, the control points of cubics that follow one another.
 /// Their ends lie on the curve's image and have its tangents, so that smooth curves stay smooth.
 /// Between them each is within `tolerance` of the image, as far as seven points and the tangents
-/// there tell, which includes a kink between two of them. If the map is affine, a curve has a
+/// there tell, which includes one kink between two of them. If the map is affine, a curve has a
 /// single cubic, which is exact. Pieces are halved up to 20 times; where the map jumps, the
 /// shortest pieces bridge the gap. `map` is called for many curves at once, about as often as the
 /// pieces are halved. Cost: seven points for each piece that is tried.

@@ -49,23 +49,23 @@ TEST_CASE("An affine map takes each curve to a single cubic, exactly") {
   }
 }
 
-TEST_CASE("Images with kinks are as close as asked for") {
-  for (const unsigned seed : seeds_of("images with kinks", {1, 2, 3})) {
+TEST_CASE("Images with one kink are as close as asked for") {
+  for (const unsigned seed : seeds_of("images with a kink", {1, 2, 3})) {
     std::mt19937 random(seed);
     CAPTURE(seed);
-    const std::vector<Points> curves = random_curves(random, 20);
+    // Lines cross the kink once. Curves may also touch it between samples, which is not promised.
+    std::vector<Points> curves = random_curves(random, 40);
+    for (Points& curve : curves) curve = {curve.front(), curve.back()};
     std::uniform_real_distribution<double> place(50, 450), bend(-0.5, 0.5);
-    const double x = place(random), y = place(random);
-    const Complex right(bend(random), bend(random)), up(bend(random), bend(random));
-    // Continuous, and affine in each of four quadrants.
-    const auto f = [&](Complex z) {
-      return z + right * std::max(z.real() - x, 0.0) + up * std::max(z.imag() - y, 0.0);
-    };
+    const double x = place(random);
+    const Complex bent(bend(random), bend(random));
+    // Continuous, and affine on both sides of a line.
+    const auto f = [&](Complex z) { return z + bent * std::max(z.real() - x, 0.0); };
     const PointValues map = [&](std::span<const Complex> points) {
       std::vector<PointMap::Value> values;
       for (const Complex& z : points) {
-        const Complex fx = 1.0 + (z.real() > x ? right : 0), fy = kI + (z.imag() > y ? up : 0);
-        values.push_back({f(z), 0.5 * (fx - kI * fy), 0.5 * (fx + kI * fy)});
+        const Complex half = z.real() > x ? 0.5 * bent : 0;
+        values.push_back({f(z), 1.0 + half, half});
       }
       return values;
     };
