@@ -3,6 +3,7 @@
 #include "core/maps/curve_images.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/geometry/curve.h"
 
@@ -63,8 +64,17 @@ class CurveSamples {
   Points points_, speeds_;
 };
 
-constexpr double kInside[] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875};
-constexpr size_t kCount = std::size(kInside);
+/// How many parts a piece has between its samples: at least 8, and as many as keep samples nearer
+/// together than `spacing`.
+size_t part_count(const CurvePiece& piece, double spacing) {
+  constexpr size_t kFewest = 8, kMost = 256;
+  const Points cubic = piece.cubic();
+  double length = 0;
+  for (size_t k = 0; k + 1 < cubic.size(); ++k) length += std::abs(cubic[k + 1] - cubic[k]);
+  size_t parts = kFewest;
+  while (parts < kMost && static_cast<double>(parts) * spacing < length) parts *= 2;
+  return parts;
+}
 
 /// How far the errors are from 0 between two samples that lie `step` apart. A curve with a kink,
 /// which maps that are linear in triangles have, may be farthest off at the kink, where the lines
@@ -76,21 +86,20 @@ double largest_error(const CurveSample& a, const CurveSample& b, double step) {
   return std::max(std::abs(a.at), std::abs(b.at)) + peak;
 }
 
-/// How far the piece's cubic is from the image, of which `inside` are samples.
+/// How far the piece's cubic is from the image, of which `inside` are evenly spaced samples.
 double largest_error(const CurvePiece& piece, std::span<const CurveSample> inside) {
   const Points cubic = piece.cubic();
+  const double step = 1 / static_cast<double>(inside.size() + 1);
   CurveSample before{0, 0};
-  double before_t = 0, largest = 0;
-  for (size_t k = 0; k <= kCount; ++k) {
-    const double t = k < kCount ? kInside[k] : 1;
+  double largest = 0;
+  for (size_t k = 0; k <= inside.size(); ++k) {
     CurveSample error{0, 0};
-    if (k < kCount) {
-      const CurveSample ours = sample_of(cubic, t);
+    if (k < inside.size()) {
+      const CurveSample ours = sample_of(cubic, step * static_cast<double>(k + 1));
       error = {ours.at - inside[k].at, ours.speed - (piece.to - piece.from) * inside[k].speed};
     }
-    largest = std::max(largest, largest_error(before, error, t - before_t));
+    largest = std::max(largest, largest_error(before, error, step));
     before = error;
-    before_t = t;
   }
   return largest;
 }
@@ -107,20 +116,35 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
   for (size_t c = 0; c < curves.size(); ++c)
     open.push_back({c, 0, 1, ends[2 * c], ends[2 * c + 1]});
   constexpr int kMostHalvings = 20;
+  constexpr double kSpacing = 100;  // in tolerances
+  size_t left = (size_t{1} << 20) + 512 * curves.size();
   for (int halvings = 0; !open.empty(); ++halvings) {
+    std::vector<size_t> counts;
     for (const CurvePiece& piece : open)
-      for (const double t : kInside)
-        samples.ask(piece.curve, piece.from + t * (piece.to - piece.from));
+      counts.push_back(part_count(piece, kSpacing * tolerance) - 1);
+    const size_t needed = std::reduce(counts.begin(), counts.end());
+    if (needed > left) {
+      finished.insert(finished.end(), open.begin(), open.end());
+      break;
+    }
+    left -= needed;
+    for (size_t i = 0; i < open.size(); ++i)
+      for (size_t k = 1; k <= counts[i]; ++k)
+        samples.ask(open[i].curve, open[i].from + (open[i].to - open[i].from) *
+                                                      static_cast<double>(k) /
+                                                      static_cast<double>(counts[i] + 1));
     const std::vector<CurveSample> inside = samples.answers();
     std::vector<CurvePiece> halves;
+    std::span<const CurveSample> rest = inside;
     for (size_t i = 0; i < open.size(); ++i) {
       const CurvePiece& piece = open[i];
-      const std::span its = std::span(inside).subspan(kCount * i, kCount);
+      const std::span its = rest.first(counts[i]);
+      rest = rest.subspan(counts[i]);
       if (halvings == kMostHalvings || largest_error(piece, its) <= tolerance) {
         finished.push_back(piece);
         continue;
       }
-      const CurveSample& middle = its[kCount / 2];
+      const CurveSample& middle = its[its.size() / 2];
       halves.push_back({piece.curve, piece.from, piece.middle(), piece.start, middle});
       halves.push_back({piece.curve, piece.middle(), piece.to, middle, piece.end});
     }
