@@ -1,8 +1,5 @@
 // First, the elements are copied, and the curves that must be bent are collected. Then the map is
 // evaluated for all of them together, and the paths are written into the copies.
-//
-// A frame is where the user units of a copied element lie in the result. Elements with strokes,
-// gradients or filters have frames of their own, which are written as their transforms.
 #include "scene/formats/bent_drawing.h"
 
 #include <algorithm>
@@ -13,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/geometry/curve.h"
+#include "scene/formats/drawing_frames.h"
 #include "scene/formats/path_writer.h"
 #include "scene/formats/svg_cleaning.h"
 #include "scene/formats/svg_document.h"
@@ -24,47 +22,6 @@ namespace {
 
 constexpr size_t kMostElements = 200'000, kMostCurves = 500'000;
 constexpr int kDeepestUse = 32;
-
-/// The average of derivatives that preserves orientation: rotations and stretches are averaged
-/// separately, so that a stroke that is bent into a circle keeps its width.
-Affine average(const std::vector<PointMap::Value>& values, const Points& points) {
-  Complex rotation = 0, at = 0, image = 0, anti = 0;
-  double linear = 0;
-  size_t count = 0;
-  for (size_t i = 0; i < values.size(); ++i) {
-    const auto& [f, fz, fzbar] = values[i];
-    if (!is_finite(f) || !is_finite(fz) || !is_finite(fzbar) || !(std::abs(fz) > 0)) continue;
-    const Complex direction = fz / std::abs(fz);
-    rotation += direction;
-    linear += std::abs(fz);
-    anti += std::conj(direction) * fzbar;
-    at += points[i];
-    image += f;
-    ++count;
-  }
-  if (count == 0) return {};
-  const double n = static_cast<double>(count);
-  Affine map{linear / n, anti / n, 0};
-  if (!(std::abs(map.anti) < 0.99 * linear / n)) map.anti = 0;  // the map folds
-  const Complex direction = std::abs(rotation) > 0 ? rotation / std::abs(rotation) : 1;
-  map.linear *= direction;
-  map.anti *= direction;
-  map.shift = image / n - map.direction(at / n);
-  return map;
-}
-
-/// Whether an affine map misses the values of another map by a tenth of their extent, on average.
-bool misses(const Affine& map, const Points& points, std::span<const PointMap::Value> values) {
-  constexpr double kVisible = 0.1;
-  Complex center = 0;
-  for (const PointMap::Value& value : values) center += value.f / double(values.size());
-  double off = 0, extent = 0;
-  for (size_t i = 0; i < values.size(); ++i) {
-    off += std::norm(map(points[i]) - values[i].f);
-    extent += std::norm(values[i].f - center);
-  }
-  return off > kVisible * kVisible * extent;
-}
 
 /// Whether a path encloses some area if its subpaths are closed.
 bool has_area(const std::vector<Subpath>& path) {
@@ -98,12 +55,15 @@ class Bender {
     for (const pugi::xml_attribute& attribute : root.attributes())
       if (std::string(attribute.name()).starts_with("xmlns:")) group_.append_copy(attribute);
     definitions_ = group_.append_child("defs");
-    frames_.push_back({});  // the result's own
     add_root(root);
     cut_off_overhang();
-    place_frames();
-    write_paths();
-    write_transforms();
+    const auto values = [this](std::span<const Complex> points) { return values_at(points); };
+    frames_.place(values);
+    if (frames_.should_bend_gradients())
+      losses_.insert("some gradients are moved and turned, but not bent");
+    write_paths(values);
+    frames_.write_transforms();
+    write_mask_regions();
     remove_unused_clipping(group_);
     if (!definitions_.first_child()) group_.remove_child(definitions_);
     if (!options_.prefix.empty()) prefix_ids(group_, options_.prefix);
@@ -116,7 +76,7 @@ class Bender {
 
  private:
   /// Where an element is copied to.
-  struct Place {
+  struct CopyContext {
     Affine to_picture;  ///< from its parent's user units to the picture's pixels, y down
     size_t frame = 0;   ///< of the copied parent
     Viewport viewport;
@@ -124,17 +84,8 @@ class Bender {
     int uses = 0;        ///< levels of `use`
   };
 
-  struct Frame {
-    size_t parent = 0;
-    pugi::xml_node node = {};      ///< gets the transform
-    Affine to_picture = {};        ///< from its user units
-    Points samples = {};           ///< points of the picture, y down, at which the map is averaged
-    Affine placement = {};         ///< from its user units to the result
-    size_t offered = 0, step = 1;  ///< every step-th point that is offered becomes a sample
-  };
-
   /// A copied shape: some of the curves.
-  struct Shape {
+  struct CopiedShape {
     pugi::xml_node node;
     size_t frame = 0;
     std::vector<Subpath> path;  ///< without points; only numbers of segments, and closings
@@ -156,11 +107,11 @@ class Bender {
                   drawing_.name + ": with all copies, the drawing has more than 200,000 elements");
   }
 
-  void add_children(const pugi::xml_node& from, pugi::xml_node to, const Place& place) {
-    for (const pugi::xml_node& child : from.children()) add(child, to, place);
+  void add_children(const pugi::xml_node& from, pugi::xml_node to, const CopyContext& context) {
+    for (const pugi::xml_node& child : from.children()) add(child, to, context);
   }
 
-  void add(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
+  void add(const pugi::xml_node& node, pugi::xml_node to, const CopyContext& context) {
     if (node.type() != pugi::node_element) {
       if (node.type() == pugi::node_pcdata) to.append_copy(node);
       return;
@@ -169,15 +120,15 @@ class Bender {
     const std::string kind = local_name(node);
     if (kind == "symbol" || !is_kept(node, losses_)) return;
     if (kind == "defs") return add_definitions(node, to);
-    if (kind == "use") return add_use(node, to, place);
-    if (kind == "svg") return add_viewport(node, to, place, {}, {});
-    if (kind == "switch") return add_switch(node, to, place);
-    if (is_shape(node)) return add_shape(node, to, place);
+    if (kind == "use") return add_use(node, to, context);
+    if (kind == "svg") return add_viewport(node, to, context, {}, {});
+    if (kind == "switch") return add_switch(node, to, context);
+    if (is_shape(node)) return add_shape(node, to, context);
     if (kind == "g" || kind == "a") {
-      const auto [copy, inside] = add_group(node, to, place);
+      const auto [copy, inside] = add_group(node, to, context);
       return add_children(node, copy, inside);
     }
-    if (kind == "text" || kind == "image") return add_whole(node, to, place);
+    if (kind == "text" || kind == "image") return add_whole(node, to, context);
     add_definition(to.append_copy(node));  // gradients, titles and such
   }
 
@@ -200,8 +151,8 @@ class Bender {
     if (!drawn_.empty() && overhangs) clip(group_, page, {Affine{}, 0, drawing_.viewport, true, 0});
   }
 
-  /// Clips a copied element by a rectangle in the user units of `place`.
-  void clip(pugi::xml_node copy, const Box& box, const Place& place) {
+  /// Clips a copied element by a rectangle in the user units of `context`.
+  void clip(pugi::xml_node copy, const Box& box, const CopyContext& context) {
     const std::string id = new_id();
     pugi::xml_node clip = definitions_.append_child("clipPath");
     clip.append_attribute("id").set_value(id.c_str());
@@ -213,7 +164,7 @@ class Bender {
       from = to;
     }
     rectangle.closed = true;
-    Place inside = place;
+    CopyContext inside = context;
     inside.clips = true;
     add_curves(clip.append_child("path"), {rectangle}, inside);
     set_property(copy, "clip-path", "url(#" + id + ")");
@@ -240,62 +191,45 @@ class Bender {
   }
 
   /// Copies an element without its children. What edits it as another kind of shape is left out.
-  pugi::xml_node copy_of(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
+  pugi::xml_node copy_of(const pugi::xml_node& node, pugi::xml_node to,
+                         const CopyContext& context) {
     pugi::xml_node copy = to.append_child(node.name());
     for (const pugi::xml_attribute& attribute : node.attributes()) {
       const std::string name = attribute.name();
       const bool stays = !name.starts_with("sodipodi:") && name != "inkscape:path-effect" &&
                          name != "inkscape:original-d" && name != "transform" && name != "xmlns" &&
-                         (name != "id" || place.uses == 0);
+                         (name != "id" || context.uses == 0);
       if (stays) copy.append_copy(attribute);
     }
     clean_attributes(copy, losses_);
-    resolve_percentages(copy, place.viewport);
+    resolve_percentages(copy, context.viewport);
     if (!property_of(copy, "transform").empty()) set_property(copy, "transform", "");
     return copy;
   }
 
-  Affine inside(const pugi::xml_node& node, const Place& place) const {
-    return composed(place.to_picture, transform_of(node));
-  }
-
-  /// A frame for an element whose samples are added later.
-  size_t new_frame(pugi::xml_node node, const Affine& to_picture, size_t parent) {
-    frames_.push_back({parent, node, to_picture});
-    return frames_.size() - 1;
-  }
-  /// Offers a sample to a frame and to those around it.
-  void sample(size_t frame, Complex at) {
-    constexpr size_t kMostSamples = 1024;
-    for (; frame != 0; frame = frames_[frame].parent) {
-      Frame& it = frames_[frame];
-      if (it.offered++ % it.step != 0) continue;
-      it.samples.push_back(at);
-      if (it.samples.size() < kMostSamples) continue;
-      for (size_t i = 0; 2 * i < it.samples.size(); ++i) it.samples[i] = it.samples[2 * i];
-      it.samples.resize(kMostSamples / 2);
-      it.step *= 2;
-    }
+  Affine inside(const pugi::xml_node& node, const CopyContext& context) const {
+    return composed(context.to_picture, transform_of(node));
   }
 
   /// Copies a group without its children. `viewbox` is what its own content is mapped by.
-  std::pair<pugi::xml_node, Place> add_group(const pugi::xml_node& node, pugi::xml_node to,
-                                             const Place& place, const Affine& viewbox = {}) {
-    pugi::xml_node copy = copy_of(node, to, place);
+  std::pair<pugi::xml_node, CopyContext> add_group(const pugi::xml_node& node, pugi::xml_node to,
+                                                   const CopyContext& context,
+                                                   const Affine& viewbox = {}) {
+    pugi::xml_node copy = copy_of(node, to, context);
     copy.set_name(local_name(node) == "a" ? "a" : "g");
-    Place within = place;
-    within.to_picture = composed(inside(node, place), viewbox);
+    CopyContext within = context;
+    within.to_picture = composed(inside(node, context), viewbox);
     const std::string filter = property_of(node, "filter");
-    if (!filter.empty() && filter != "none" && !place.clips)
-      within.frame = new_frame(copy, within.to_picture, place.frame);
+    if (!filter.empty() && filter != "none" && !context.clips)
+      within.frame = frames_.add(copy, within.to_picture, context.frame);
     bend_clipping(node, copy, within);
     return {copy, within};
   }
 
   /// Takes the first child that is not for other languages or programs. Texts in several languages
   /// end with one for all others.
-  void add_switch(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
-    const auto [group, within] = add_group(node, to, place);
+  void add_switch(const pugi::xml_node& node, pugi::xml_node to, const CopyContext& context) {
+    const auto [group, within] = add_group(node, to, context);
     for (const pugi::xml_node& child : node.children())
       if (child.type() == pugi::node_element && local_name(child) != "foreignObject" &&
           !child.attribute("requiredExtensions") && !child.attribute("systemLanguage"))
@@ -303,10 +237,10 @@ class Bender {
   }
 
   /// An inner svg, or a symbol that is used with a size.
-  void add_viewport(const pugi::xml_node& node, pugi::xml_node to, const Place& place,
+  void add_viewport(const pugi::xml_node& node, pugi::xml_node to, const CopyContext& context,
                     const std::optional<double>& used_width,
                     const std::optional<double>& used_height) {
-    const Viewport& outer = place.viewport;
+    const Viewport& outer = context.viewport;
     const bool is_symbol = local_name(node) == "symbol";
     const auto length = [&](const char* name, double whole, double otherwise) {
       return is_symbol ? otherwise
@@ -316,22 +250,23 @@ class Bender {
     const Viewport size{used_width.value_or(length("width", outer.width, outer.width)),
                         used_height.value_or(length("height", outer.height, outer.height))};
     const std::string overflow = property_of(node, "overflow");
-    if (!is_symbol && !place.clips && overflow != "visible" && overflow != "auto") {
+    if (!is_symbol && !context.clips && overflow != "visible" && overflow != "auto") {
       to = to.append_child("g");
       const Box box{corner.real(), corner.imag(), corner.real() + size.width,
                     corner.imag() + size.height};
-      Place around = place;
-      around.to_picture = inside(node, place);
+      CopyContext around = context;
+      around.to_picture = inside(node, context);
       clip(to, box, around);
     }
     const auto box = viewbox_of(node);
-    add_viewport_content(node, to, place, viewbox_map(node, corner, size),
+    add_viewport_content(node, to, context, viewbox_map(node, corner, size),
                          box ? Viewport{box->width(), box->height()} : size);
   }
 
-  void add_viewport_content(const pugi::xml_node& node, pugi::xml_node to, const Place& place,
-                            const Affine& viewbox, const Viewport& viewport) {
-    auto [copy, within] = add_group(node, to, place, viewbox);
+  void add_viewport_content(const pugi::xml_node& node, pugi::xml_node to,
+                            const CopyContext& context, const Affine& viewbox,
+                            const Viewport& viewport) {
+    auto [copy, within] = add_group(node, to, context, viewbox);
     for (const char* name : {"x", "y", "width", "height", "viewBox", "preserveAspectRatio",
                              "version", "baseProfile", "overflow"})
       copy.remove_attribute(name);
@@ -339,36 +274,36 @@ class Bender {
     add_children(node, copy, within);
   }
 
-  void add_use(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
+  void add_use(const pugi::xml_node& node, pugi::xml_node to, const CopyContext& context) {
     const std::string target = href_of(node);
     const pugi::xml_node original =
         target.starts_with("#") ? element(target.substr(1)) : pugi::xml_node();
-    if (!original || place.uses >= kDeepestUse) return;
+    if (!original || context.uses >= kDeepestUse) return;
     const auto length = [&](const char* name, double whole) {
       return length_of(node.attribute(name).as_string(), whole);
     };
-    const Complex by{length("x", place.viewport.width).value_or(0),
-                     length("y", place.viewport.height).value_or(0)};
-    if (place.clips) return add_clipping_use(node, original, to, place, by);
-    auto [copy, within] = add_group(node, to, place);
+    const Complex by{length("x", context.viewport.width).value_or(0),
+                     length("y", context.viewport.height).value_or(0)};
+    if (context.clips) return add_clipping_use(node, original, to, context, by);
+    auto [copy, within] = add_group(node, to, context);
     for (const char* name : {"x", "y", "width", "height", "href", "xlink:href"})
       copy.remove_attribute(name);
     within.to_picture = composed(within.to_picture, {.shift = by});
     ++within.uses;
     const std::string kind = local_name(original);
     if (kind == "symbol" || kind == "svg")
-      add_viewport(original, copy, within, length("width", place.viewport.width),
-                   length("height", place.viewport.height));
+      add_viewport(original, copy, within, length("width", context.viewport.width),
+                   length("height", context.viewport.height));
     else
       add(original, copy, within);
   }
 
   /// A copy within a clipping path, where there are no groups.
   void add_clipping_use(const pugi::xml_node& node, const pugi::xml_node& original,
-                        pugi::xml_node to, const Place& place, Complex by) {
+                        pugi::xml_node to, const CopyContext& context, Complex by) {
     if (!is_shape(original) && local_name(original) != "text") return;
-    Place within = place;
-    within.to_picture = composed(inside(node, place), {.shift = by});
+    CopyContext within = context;
+    within.to_picture = composed(inside(node, context), {.shift = by});
     ++within.uses;
     add(original, to, within);
     pugi::xml_node copy = to.last_child();
@@ -388,10 +323,6 @@ class Bender {
     const std::string stroke = inherited_property(node, "stroke");
     return !stroke.empty() && stroke != "none";
   }
-  static bool paints_gradient(const pugi::xml_node& node) {
-    return inherited_property(node, "fill").starts_with("url(") ||
-           inherited_property(node, "stroke").starts_with("url(");
-  }
   /// Whether what is drawn on a shape depends on its user units.
   static bool depends_on_units(const pugi::xml_node& node) {
     const std::string filter = property_of(node, "filter");
@@ -400,23 +331,23 @@ class Bender {
            (!filter.empty() && filter != "none");
   }
 
-  void add_shape(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
-    pugi::xml_node copy = copy_of(node, to, place);
-    Place within = place;
-    within.to_picture = inside(node, place);
-    std::vector<Subpath> path = path_of_shape(node, place.viewport);
+  void add_shape(const pugi::xml_node& node, pugi::xml_node to, const CopyContext& context) {
+    pugi::xml_node copy = copy_of(node, to, context);
+    CopyContext within = context;
+    within.to_picture = inside(node, context);
+    std::vector<Subpath> path = path_of_shape(node, context.viewport);
     // What fills and clips is closed in any case. It must be before it is bent.
     if (!has_area(path))
       set_property(copy, "fill", "none");
-    else if (place.clips || (!has_stroke(copy) && !has_markers(copy)))
+    else if (context.clips || (!has_stroke(copy) && !has_markers(copy)))
       for (Subpath& subpath : path) subpath.closed = true;
     else if (inherited_property(copy, "fill") != "none" &&
              std::ranges::any_of(path, [](const Subpath& subpath) {
                return !subpath.closed && subpath.end() != subpath.start;
              }))
       losses_.insert("the closing edges of filled, open lines stay straight");
-    if (!place.clips && depends_on_units(copy)) {
-      within.frame = new_frame(copy, within.to_picture, place.frame);
+    if (!context.clips && depends_on_units(copy)) {
+      within.frame = frames_.add(copy, within.to_picture, context.frame);
       Box box;
       include(box, path);
       for (const char* paint : {"fill", "stroke"}) use_own_units(copy, paint, box);
@@ -428,26 +359,27 @@ class Bender {
     add_curves(copy, path, within);
   }
 
-  void add_curves(pugi::xml_node copy, const std::vector<Subpath>& path, const Place& place) {
+  void add_curves(pugi::xml_node copy, const std::vector<Subpath>& path,
+                  const CopyContext& context) {
     constexpr size_t kMostSamples = 64;
-    Shape shape{copy, place.frame, {}, curves_.size()};
+    CopiedShape shape{copy, context.frame, {}, curves_.size()};
     Points all;
     for (const Subpath& subpath : path) {
       Subpath& kept = shape.path.emplace_back();
       kept.closed = subpath.closed;
-      kept.start = place.to_picture(subpath.start);
+      kept.start = context.to_picture(subpath.start);
       std::vector<Points> segments = subpath.segments;
       if (subpath.closed && subpath.end() != subpath.start)
         segments.push_back({subpath.end(), subpath.start});
       // A subpath that is only a point is kept as a line of length zero, which may have a cap.
       if (segments.empty()) segments.push_back({subpath.start, subpath.start});
       for (Points& segment : segments) {
-        for (Complex& z : segment) z = place.to_picture(z);
+        for (Complex& z : segment) z = context.to_picture(z);
         if (!std::ranges::all_of(segment, is_finite) || !std::ranges::all_of(segment, is_moderate))
           throw Error(ErrorKind::bad_input, drawing_.name + ": a shape is infinitely large");
         for (const double t : {0.0, 0.5}) all.push_back(bezier_point(segment, t));
         if (&segment == &segments.back()) all.push_back(segment.back());
-        if (!place.clips)
+        if (!context.clips)
           for (const Complex& z : segment) drawn_.include(z);
         kept.segments.emplace_back();
         curves_.push_back(std::move(segment));
@@ -458,12 +390,13 @@ class Bender {
       }
     }
     const size_t step = all.size() / kMostSamples + 1;
-    for (size_t i = 0; i < all.size() && !place.clips; i += step) sample(place.frame, all[i]);
+    for (size_t i = 0; i < all.size() && !context.clips; i += step)
+      frames_.sample(context.frame, all[i]);
     shapes_.push_back(std::move(shape));
   }
 
   /// Texts and pictures move as a whole.
-  void add_whole(const pugi::xml_node& node, pugi::xml_node to, const Place& place) {
+  void add_whole(const pugi::xml_node& node, pugi::xml_node to, const CopyContext& context) {
     const bool is_text = local_name(node) == "text";
     if (!is_text && !href_of(node).starts_with("data:")) {
       losses_.insert("its linked pictures are left out");
@@ -471,24 +404,24 @@ class Bender {
     }
     losses_.insert(is_text ? "its texts are moved and turned, but not bent"
                            : "its embedded pictures are moved and turned, but not bent");
-    Place within = place;
-    within.to_picture = inside(node, place);
-    pugi::xml_node copy = copy_of(node, to, place);
+    CopyContext within = context;
+    within.to_picture = inside(node, context);
+    pugi::xml_node copy = copy_of(node, to, context);
     for (const pugi::xml_node& child : node.children()) copy.append_copy(child);
     add_definition(copy);
-    within.frame = new_frame(copy, within.to_picture, place.frame);
+    within.frame = frames_.add(copy, within.to_picture, context.frame);
     const auto length = [&](const char* name, double whole) {
       return length_of(node.attribute(name).as_string(), whole).value_or(0);
     };
-    const double x = is_text ? first_place(node, "x", place.viewport.width)
-                             : length("x", place.viewport.width),
-                 y = is_text ? first_place(node, "y", place.viewport.height)
-                             : length("y", place.viewport.height);
-    const double width = is_text ? 0 : length("width", place.viewport.width),
-                 height = is_text ? 0 : length("height", place.viewport.height);
+    const double x = is_text ? first_place(node, "x", context.viewport.width)
+                             : length("x", context.viewport.width),
+                 y = is_text ? first_place(node, "y", context.viewport.height)
+                             : length("y", context.viewport.height);
+    const double width = is_text ? 0 : length("width", context.viewport.width),
+                 height = is_text ? 0 : length("height", context.viewport.height);
     for (const double u : {0.0, 0.5, 1.0})
       for (const double v : {0.0, 0.5, 1.0})
-        sample(within.frame, within.to_picture(Complex(x + u * width, y + v * height)));
+        frames_.sample(within.frame, within.to_picture(Complex(x + u * width, y + v * height)));
     bend_clipping(node, copy, within);
   }
 
@@ -501,8 +434,8 @@ class Bender {
   }
 
   /// Gives an element copies of its clipping path and mask that are bent like the element.
-  /// `within` is the place of what the element contains.
-  void bend_clipping(const pugi::xml_node& node, pugi::xml_node copy, const Place& within) {
+  /// `within` is the context of what the element contains.
+  void bend_clipping(const pugi::xml_node& node, pugi::xml_node copy, const CopyContext& within) {
     for (const char* property : {"clip-path", "mask"}) {
       const std::string value = property_of(node, property);
       const pugi::xml_node original = element(id_in_url(value));
@@ -519,31 +452,32 @@ class Bender {
             name != "height" && !name.ends_with("Units") && name != "clip-path" && name != "mask")
           bent.append_copy(attribute);
       bent.append_attribute("id").set_value(id.c_str());
-      Place place = within;
-      place.clips = clips;
-      place.uses = within.uses + 1;
+      CopyContext context = within;
+      context.clips = clips;
+      context.uses = within.uses + 1;
       const std::string units =
           original.attribute(clips ? "clipPathUnits" : "maskContentUnits").as_string();
       if (units == "objectBoundingBox") {
         const Box box = extent_of(node, within.viewport);
         if (!box.empty())
-          place.to_picture =
-              composed(place.to_picture,
+          context.to_picture =
+              composed(context.to_picture,
                        affine_of_matrix(box.width(), 0, 0, box.height(), box.left, box.bottom));
       }
-      place.to_picture = composed(place.to_picture, transform_of(original));
-      bend_clipping(original, bent, place);
+      context.to_picture = composed(context.to_picture, transform_of(original));
+      bend_clipping(original, bent, context);
       if (clips)
-        add_children(original, bent, place);
+        add_children(original, bent, context);
       else
-        add_mask_content(node, original, bent, within, place);
+        add_mask_content(node, original, bent, within, context);
       set_property(copy, property, "url(#" + id + ")");
     }
   }
 
   /// A mask shows nothing outside its region.
   void add_mask_content(const pugi::xml_node& node, const pugi::xml_node& original,
-                        pugi::xml_node bent, const Place& within, const Place& place) {
+                        pugi::xml_node bent, const CopyContext& within,
+                        const CopyContext& context) {
     masks_.emplace_back(bent, within.frame);
     const bool in_box =
         std::string(original.attribute("maskUnits").as_string()) != "userSpaceOnUse";
@@ -563,7 +497,7 @@ class Bender {
                       region.bottom + length("height", box.height(), "120%")});
       clip(bent, region, within);
     }
-    add_children(original, bent, place);
+    add_children(original, bent, context);
   }
 
   /// If a shape's paint refers to its bounding box, gives it a copy of the paint in the shape's
@@ -591,34 +525,12 @@ class Bender {
     return values;
   }
 
-  void place_frames() {
-    Points all;
-    for (const Frame& frame : frames_)
-      all.insert(all.end(), frame.samples.begin(), frame.samples.end());
-    const std::vector<PointMap::Value> values =
-        all.empty() ? std::vector<PointMap::Value>() : values_at(all);
-    auto at = values.begin();
-    for (size_t i = 1; i < frames_.size(); ++i) {
-      Frame& frame = frames_[i];
-      const auto end = at + static_cast<long>(frame.samples.size());
-      const Affine map = average({at, end}, frame.samples);
-      frame.placement = composed(map, frame.to_picture);
-      if (paints_gradient(frame.node) && misses(map, frame.samples, {at, end}))
-        losses_.insert("some gradients are moved and turned, but not bent");
-      at = end;
-      const double size = std::abs(frame.placement.linear) + std::abs(frame.placement.anti);
-      if (!(std::abs(frame.placement.determinant()) > 1e-9 * size * size))
-        frame.placement = frames_[frame.parent].placement;
-    }
-  }
-
-  void write_paths() {
+  void write_paths(const PointValues& values) {
     constexpr double kFlat = 0.2, kPrecision = 0.02;  // in tolerances
     const double tolerance = options_.tolerance;
-    const auto values = [this](std::span<const Complex> points) { return values_at(points); };
     const auto images = curve_images(curves_, values, (1 - kFlat) * tolerance);
-    for (Shape& shape : shapes_) {
-      PathWriter writer(inverse(frames_[shape.frame].placement), kPrecision * tolerance);
+    for (CopiedShape& shape : shapes_) {
+      PathWriter writer(inverse(frames_.placement(shape.frame)), kPrecision * tolerance);
       size_t curve = shape.first_curve;
       for (const Subpath& subpath : shape.path) {
         for (size_t k = 0; k < subpath.segments.size(); ++k, ++curve) {
@@ -631,16 +543,10 @@ class Bender {
     }
   }
 
-  void write_transforms() {
-    for (size_t i = 1; i < frames_.size(); ++i) {
-      Frame& frame = frames_[i];
-      const Affine relative = composed(inverse(frames_[frame.parent].placement), frame.placement);
-      if (relative != Affine{})
-        frame.node.append_attribute("transform").set_value(matrix_text(relative).c_str());
-    }
-    // Masks must not cut off anything that they do not cut off at rest.
+  /// Masks must not cut off anything that they do not cut off at rest.
+  void write_mask_regions() {
     for (auto& [mask, frame] : masks_) {
-      const Affine to_frame = inverse(frames_[frame].placement);
+      const Affine to_frame = inverse(frames_.placement(frame));
       constexpr double kFar = 1e5;
       Box box;
       for (const Complex corner :
@@ -661,8 +567,8 @@ class Bender {
   std::map<std::string, pugi::xml_node> by_id_;
   pugi::xml_document result_;
   pugi::xml_node group_, definitions_;
-  std::vector<Frame> frames_;  ///< parents come first
-  std::vector<Shape> shapes_;
+  DrawingFrames frames_;
+  std::vector<CopiedShape> shapes_;
   std::vector<Points> curves_;  ///< in pixels of the picture, y down
   std::vector<std::pair<pugi::xml_node, size_t>> masks_;
   const ElementById find_ = [this](const std::string& id) { return element(id); };
