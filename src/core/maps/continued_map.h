@@ -21,9 +21,9 @@ class ContinuedMap final : public PointMap {
  private:
   /// The nearest point of the boundary, and how points beside it follow.
   struct Foot {
-    Complex at, edge;          ///< the point, and the direction of its edge, of length 1
-    Complex turn, turn_speed;  ///< the factor, and its derivative along the edge
-    bool is_corner = false;    ///< all points near z have the same foot
+    Complex at, edge;              ///< the point, and the direction of its edge, of length 1
+    Complex factor, factor_speed;  ///< of points beside it, and its derivative along the edge
+    bool is_corner = false;        ///< all points near z have the same foot
   };
   Foot foot_of(Complex z) const;
   Value finite_value(Complex z, const Value& value) const;
@@ -34,7 +34,7 @@ class ContinuedMap final : public PointMap {
   MeshPointMap linear_;
   const PointMap& map_;
   std::vector<Complex> boundary_;  ///< positions at rest
-  std::vector<Complex> turns_;     ///< of the boundary's vertices
+  std::vector<Complex> factors_;   ///< of the boundary's vertices
 };
 
 }  // namespace holomorph
