@@ -29,9 +29,10 @@ struct DrawingPlace {
 };
 
 /// The element <g> of a layer's drawing, bent by the layer's map at a time, within 0.05 pixels of
-/// the canvas. Without a time, it is bent by the map of the layer's own pose. If the picture
-/// has solid parts outside the cage, they stay, and the rest is clipped by the posed cage. What
-/// overlaps itself is in the order of the drawing. Appends what is lost. Throws Error.
+/// the canvas. Without a time, it is bent by the map of the layer's own pose. Solid parts of the
+/// picture outside the cage stay where they are; all else is clipped by the posed cage. Where the
+/// bent drawing overlaps itself, shapes keep their order. Appends messages about what is lost.
+/// Throws Error.
 std::string layer_drawing(const SourceDrawing& drawing, const Deformation& deformation,
                           bool linear_blend, const std::optional<double>& time,
                           const DrawingPlace& place, std::vector<std::string>& losses);

@@ -32,14 +32,14 @@ const std::vector<FileKind>& file_kinds() {
   return all;
 }
 
-bool is_one(const FileKind& kind, FileContent content) {
+bool can_open_as(const FileKind& kind, FileContent content) {
   return std::ranges::find(kind.contents, content) != kind.contents.end();
 }
 
 std::vector<std::string> extensions_of(std::initializer_list<FileContent> contents) {
   std::vector<std::string> found;
   for (const FileKind& kind : file_kinds())
-    if (std::ranges::any_of(contents, [&](FileContent each) { return is_one(kind, each); }))
+    if (std::ranges::any_of(contents, [&](FileContent each) { return can_open_as(kind, each); }))
       found.insert(found.end(), kind.extensions.begin(), kind.extensions.end());
   return found;
 }
@@ -47,7 +47,7 @@ std::vector<std::string> extensions_of(std::initializer_list<FileContent> conten
 bool is_named_as(const Path& file, FileContent content) {
   const std::string extension = lower_case(file.extension().string());
   return std::ranges::any_of(file_kinds(), [&](const FileKind& kind) {
-    return is_one(kind, content) &&
+    return can_open_as(kind, content) &&
            std::ranges::find(kind.extensions, extension) != kind.extensions.end();
   });
 }

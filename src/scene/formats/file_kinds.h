@@ -27,10 +27,10 @@ struct FileKind {
 const std::vector<FileKind>& file_kinds();
 
 /// Whether files of a kind can be opened as this.
-bool is_one(const FileKind& kind, FileContent content);
+bool can_open_as(const FileKind& kind, FileContent content);
 /// The extensions of all files that can be opened as one of these.
 std::vector<std::string> extensions_of(std::initializer_list<FileContent> contents);
-/// Whether the extension is one of files that can be opened as this.
+/// Whether a file's extension is that of files that can be opened as this.
 bool is_named_as(const Path& file, FileContent content);
 
 }  // namespace holomorph
