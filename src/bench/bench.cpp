@@ -2,6 +2,7 @@
 #include "bench/bench.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <random>
@@ -94,6 +95,19 @@ double random_coordinates_ns(int runs) {
                               has_avx2() ? Kernel::avx2 : Kernel::portable, out);
   });
   return ms * 1e6 / (static_cast<double>(points.size()) * 32);
+}
+
+/// Points in a picture of 1000 x 1000 pixels, and their derivatives, as Python gets them.
+double million_points_ms(int runs) {
+  TimedMap map(scene_with(wavy(32, {500, 500}, 350)));
+  const TimedFrame frame = map.frame({});
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, 1000);
+  std::array<Points, 2> points;
+  for (Points& each : points)
+    for (int i = 0; i < 1'000'000; ++i) each.push_back({place(random), place(random)});
+  size_t call = 0;  // what is prepared for points is kept for the next call with them
+  return median_ms(runs, [&] { map.inside(frame, points[call++ % 2]); });
 }
 
 double scalar_log_ns(int runs) {
@@ -415,6 +429,7 @@ const Entry kEntries[] = {
      1,
      [](int) { return polygon_route().missing_percent; }},
     {"inverse: 10000 preimages, 20 cubic segments", "ms", 60, 5, inverse_ms},
+    {"map: 10^6 new points, 32 edges, with derivatives", "ms", {}, 9, million_points_ms},
     {"ST-map: 2000 x 2000, with preparation, slowest method", "ms", 3000, 1,
      [](int) {
        return every_pixel_ms([](const Scene& scene, const Image& image) {

@@ -20,10 +20,8 @@
 
 #include "core/angles/hilbert.h"
 #include "core/cauchy/cauchy.h"
-#include "core/cauchy/inside.h"
 #include "core/geometry/orientation.h"
 #include "core/methods/real_coordinates.h"
-#include "core/parallel.h"
 #include "raster/picture.h"
 #include "scene/budget.h"
 #include "scene/check_scene.h"
@@ -135,12 +133,6 @@ struct Proof {
   std::optional<Extremes> extremes;
 };
 
-/// A map at points.
-struct Values {
-  Points f;
-  Eigen::Matrix2Xcd derivatives;  ///< f_z and f_zbar
-};
-
 /// An edited scene with what was prepared from it. Each call holds a lock, so threads may share it.
 class PythonScene {
  public:
@@ -200,25 +192,10 @@ class PythonScene {
     });
   }
 
-  Values values(const Points& points, std::optional<double> time) {
+  SampledMap map(const Points& points, std::optional<double> time) {
     const Turn turn(mutex_);
     TimedMap& map = timed();
-    const TimedFrame frame = map.frame(time);
-    Values values{points, Eigen::Matrix2Xcd(2, points.size())};
-    const Inside cage(scene_.deformation().rest);
-    const size_t block = map.block_size();
-    for (size_t first = 0; first < points.size(); first += block) {
-      handle_interrupts();
-      const size_t count = std::min(block, points.size() - first);
-      Points some(points.begin() + static_cast<std::ptrdiff_t>(first),
-                  points.begin() + static_cast<std::ptrdiff_t>(first + count));
-      // Maps refuse numbers that are not finite, but arrays may contain them.
-      const Complex any = scene_.deformation().rest.vertex(0);
-      std::ranges::replace_if(
-          some, [](Complex z) { return !is_moderate(z); }, any);
-      write(map.at(frame, some), cage, first, values);
-    }
-    return values;
+    return map.inside(map.frame(time), points, handle_interrupts);
   }
 
   std::vector<std::vector<Preimage>> preimages(const Points& points, std::optional<double> time) {
@@ -254,24 +231,6 @@ class PythonScene {
   }
 
  private:
-  /// Writes a map from index `first` on, where `values.f` still holds the points; NaN outside of
-  /// the cage.
-  static void write(const SampledMap& map, const Inside& cage, size_t first, Values& values) {
-    const size_t count = static_cast<size_t>(map.f.size());
-    constexpr size_t kBlock = 1024;
-    parallel_for(static_cast<int>((count + kBlock - 1) / kBlock), [&](int block) {
-      const size_t from = static_cast<size_t>(block) * kBlock;
-      for (size_t i = from; i < std::min(from + kBlock, count); ++i) {
-        const Index k = static_cast<Index>(i);
-        const bool inside = is_moderate(values.f[first + i]) && cage.contains(values.f[first + i]);
-        const Complex none(NAN, NAN);
-        values.f[first + i] = inside ? map.f[k] : none;
-        values.derivatives(0, static_cast<Index>(first + i)) = inside ? map.fz[k] : none;
-        values.derivatives(1, static_cast<Index>(first + i)) = inside ? map.fzbar[k] : none;
-      }
-    });
-  }
-
   TimedMap& timed() {
     if (!scene_.deformation().has_cage())
       throw Error(ErrorKind::bad_input, "the scene has no cage yet; use set_cage");
@@ -643,28 +602,27 @@ void add_map(py::class_<PythonScene>& scene) {
       .def(
           "map",
           [](PythonScene& self, const PointArray& points, Time time) {
-            return array_of(self.values(points.points, time).f, points.shape);
+            return array_of(self.map(points.points, time).f, points.shape);
           },
           py::arg("points"), py::arg("time") = std::nullopt,
           "Where points of the picture go, complex; NaN outside of the cage.")
       .def(
           "derivatives",
           [](PythonScene& self, const PointArray& points, Time time) {
-            Values values = self.values(points.points, time);
-            VectorXc fz = values.derivatives.row(0), fzbar = values.derivatives.row(1);
-            return py::make_tuple(array_of(std::move(fz), points.shape),
-                                  array_of(std::move(fzbar), points.shape));
+            SampledMap map = self.map(points.points, time);
+            return py::make_tuple(array_of(std::move(map.fz), points.shape),
+                                  array_of(std::move(map.fzbar), points.shape));
           },
           py::arg("points"), py::arg("time") = std::nullopt,
           "The complex derivatives f_z and f_zbar of the map.")
       .def(
           "jacobians",
           [](PythonScene& self, const PointArray& points, Time time) {
-            const Values values = self.values(points.points, time);
+            const SampledMap map = self.map(points.points, time);
             std::vector<double> jacobians;
             jacobians.reserve(4 * points.points.size());
-            for (Index i = 0; i < values.derivatives.cols(); ++i) {
-              const Complex fz = values.derivatives(0, i), fzbar = values.derivatives(1, i);
+            for (Index i = 0; i < map.fz.size(); ++i) {
+              const Complex fz = map.fz[i], fzbar = map.fzbar[i];
               const Complex x = fz + fzbar, y = kI * (fz - fzbar);
               jacobians.insert(jacobians.end(), {x.real(), y.real(), x.imag(), y.imag()});
             }

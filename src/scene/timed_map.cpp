@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/cauchy/inside.h"
 #include "core/maps/mesh_point_map.h"
 #include "core/mesh/mesher.h"
 #include "core/parallel.h"
@@ -71,6 +72,38 @@ size_t TimedMap::block_size() const {
   constexpr double kBudgetFraction = 0.25;
   const double controls = static_cast<double>(prepared_->rest.cage.control_count());
   return static_cast<size_t>(std::max(1.0, kBudgetFraction * budget().coordinates / controls));
+}
+
+SampledMap TimedMap::inside(const TimedFrame& frame, const Points& points,
+                            const std::function<void()>& keep_going) {
+  const size_t block = block_size();
+  SampledMap all;
+  for (VectorXc* part : {&all.f, &all.fz, &all.fzbar})
+    part->resize(static_cast<Index>(points.size()));
+  const Inside cage(deformation_.rest);
+  for (size_t first = 0; first < points.size(); first += block) {
+    keep_going();
+    const size_t count = std::min(block, points.size() - first);
+    const auto start = points.begin() + static_cast<std::ptrdiff_t>(first);
+    Points some(start, start + static_cast<std::ptrdiff_t>(count));
+    // Maps refuse numbers that are not finite.
+    std::ranges::replace_if(
+        some, [](Complex z) { return !is_moderate(z); }, deformation_.rest.vertex(0));
+    const SampledMap map = at(frame, some);
+    constexpr size_t kTask = 1024;
+    parallel_for(static_cast<int>((count + kTask - 1) / kTask), [&](int task) {
+      const size_t from = static_cast<size_t>(task) * kTask;
+      for (size_t i = from; i < std::min(from + kTask, count); ++i) {
+        const Complex z = points[first + i], none(NAN, NAN);
+        const bool inside = is_moderate(z) && cage.contains(z);
+        const auto k = static_cast<Index>(i), n = static_cast<Index>(first + i);
+        all.f[n] = inside ? map.f[k] : none;
+        all.fz[n] = inside ? map.fz[k] : none;
+        all.fzbar[n] = inside ? map.fzbar[k] : none;
+      }
+    });
+  }
+  return all;
 }
 
 FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,

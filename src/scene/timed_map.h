@@ -46,6 +46,11 @@ class TimedMap {
   SampledMap at(const TimedFrame& frame, const Points& points);
   /// The number of points that at() should take at once, because of the budget for coordinates.
   size_t block_size() const;
+  /// The same as at() for any number of points. Values are NaN outside the cage and at points that
+  /// are not finite. Calls `keep_going` from time to time, as fine() does.
+  SampledMap inside(
+      const TimedFrame& frame, const Points& points,
+      const std::function<void()>& keep_going = [] {});
 
   /// The map at single points. Null if the method evaluates its map only at samples. The TimedMap
   /// must outlive the result.
