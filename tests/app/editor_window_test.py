@@ -363,6 +363,44 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+z")
             self.wait_color(editor, (150, 100), colors[frame], "the whole film again")
 
+    def test_the_bar_of_a_film_is_dragged(self):
+        colors = [RED, GREEN, BLUE] * 8
+        with Editor(PROGRAM, [self.film(colors, 4)]) as editor:
+            editor.wait(lambda s: s["pictured"] and s["shows_time"], "the film and its timeline")
+            x, y = editor.item("ruler")
+            times = {}
+            for at in (x - 100, x + 100):  # the scale of the ruler
+                editor.press(at, y)
+                times[at] = editor.state()["time"]
+            scale = 200 / (times[x + 100] - times[x - 100])
+            zero = x - 100 - times[x - 100] * scale
+            row = editor.item("keys")[1]
+
+            def drag(start, end):
+                editor.xdotool("mousemove", round(zero + scale * start), row)
+                editor.xdotool("mousedown", 1)
+                for k in (1, 2, 3):
+                    editor.xdotool("mousemove", round(zero + scale * (start + (end - start) * k / 3)), row)
+                editor.xdotool("mouseup", 1)
+
+            first_step = editor.state()["step"]
+            drag(3, 4)
+            editor.press(zero, y)
+            self.wait_color(editor, (150, 100), colors[0], "the first frame, which is held")
+            editor.press(zero + scale * 2.25, y)
+            self.wait_color(editor, (150, 100), colors[5], "the frame of a second before")
+            drag(6.98, 5)  # the right end
+            path = os.path.join(self.work, "film.json")
+            self.save_as(editor, path)
+            clip = load(path)["image"]["clip"]
+            self.assertEqual(clip["start"], 1)
+            self.assertAlmostEqual(clip["last"], 15, delta=1)
+            self.assertEqual(clip.get("first", 0), 0)
+            editor.key("ctrl+z")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["step"] == first_step, "both drags are undone")
+            self.wait_color(editor, (150, 100), colors[9], "the whole film again")
+
     def test_a_film_with_sound_is_exported_with_it_by_default(self):
         film = self.film([RED, GREEN, BLUE, RED], 4)
         heard = os.path.join(self.work, "heard.mp4")

@@ -54,6 +54,8 @@ double TimelinePanel::height(const Workspace& workspace, const PanelSizes& sizes
 }
 
 std::string TimelinePanel::hint() const {
+  if (rows_.over_film())
+    return "Drag a film to move it, or its ends to trim it; Alt moves it between frames";
   return rows_.hovered()
              ? "Drag keys to move them, a bar to stretch; Alt puts keys between frames; "
                "Ctrl-drag copies; Shift-click selects more"

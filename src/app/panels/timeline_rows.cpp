@@ -187,30 +187,11 @@ void TimelineRows::draw_name(Workspace& workspace, const Row& row, ImVec2 at, fl
             shortened_text(title_of_layer(scene, row.layer), width - px(74)));
 }
 
-/// Draws a bar where the layer's film plays, and a lighter one where it repeats.
-void TimelineRows::draw_clip(const Clip& clip, float middle) const {
-  const ThemeColors& c = theme_colors();
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float half = px(11), end = ruler_.right() + px(kMargin);
-  const ImVec2 from(ruler_.x(clip.start), middle - half),
-      to(ruler_.x(clip.start + duration_of(clip)), middle + half);
-  const auto tint = [&](float alpha) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    ImVec4 color = ImGui::ColorConvertU32ToFloat4(c.accent);
-    color.w *= alpha * style.Alpha;
-    return ImGui::ColorConvertFloat4ToU32(color);
-  };
-  if (clip.loops) list.AddRectFilled({ruler_.left(), from.y}, {end, to.y}, tint(0.15f), px(4));
-  list.AddRectFilled(from, to, tint(0.4f), px(4));
-}
-
 void TimelineRows::draw_keys(const Workspace& workspace, const Row& row, float middle) const {
   const ThemeColors& c = theme_colors();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Deformation& deformation = deformation_of(workspace, row.layer);
-  const Layer& layer = *workspace.document.scene().layers[row.layer];
-  const int id = layer.id;
-  if (const Clip* clip = clip_of(layer); clip && row.part.empty()) draw_clip(*clip, middle);
+  const int id = workspace.document.scene().layers[row.layer]->id;
   const KeySelection& chosen = workspace.shown.timeline.keys;
   for (size_t i = 0; i + 1 < row.times.size(); ++i) {
     const bool both =
@@ -264,10 +245,35 @@ void TimelineRows::draw_selection_box(const Workspace& workspace) {
                        px(2));
 }
 
-std::optional<KeyId> TimelineRows::key_under(const Workspace& workspace, ImVec2 pointer) const {
-  const auto number = static_cast<int>(std::floor((pointer.y - top_) / px(kRow)));
+std::optional<size_t> TimelineRows::row_at(float y) const {
+  const auto number = static_cast<int>(std::floor((y - top_) / px(kRow)));
   if (number < 0 || number >= static_cast<int>(rows_.size())) return {};
-  const Row& row = rows_[static_cast<size_t>(number)];
+  return static_cast<size_t>(number);
+}
+
+float TimelineRows::middle_of(size_t row) const {
+  return top_ + px(kRow) * (static_cast<float>(row) + 0.5f);
+}
+
+std::optional<ClipBar> TimelineRows::clip_bar(const Workspace& workspace, size_t row) const {
+  const Clip* clip = clip_of(*workspace.document.scene().layers[rows_[row].layer]);
+  if (!clip || !rows_[row].part.empty()) return {};
+  return ClipBar(ruler_, *clip, middle_of(row));
+}
+
+std::optional<TimelineRows::ClipUnder> TimelineRows::clip_under(const Workspace& workspace,
+                                                                ImVec2 pointer) const {
+  const auto row = row_at(pointer.y);
+  const auto bar = row ? clip_bar(workspace, *row) : std::nullopt;
+  const auto kind = bar ? bar->part_at(pointer) : std::nullopt;
+  if (!kind) return {};
+  return ClipUnder{rows_[*row].layer, *kind};
+}
+
+std::optional<KeyId> TimelineRows::key_under(const Workspace& workspace, ImVec2 pointer) const {
+  const auto number = row_at(pointer.y);
+  if (!number) return {};
+  const Row& row = rows_[*number];
   std::optional<KeyId> under;
   float nearest = px(9);
   for (const double time : row.times)
@@ -276,6 +282,14 @@ std::optional<KeyId> TimelineRows::key_under(const Workspace& workspace, ImVec2 
       under = KeyId{workspace.document.scene().layers[row.layer]->id, time};
     }
   return under;
+}
+
+void TimelineRows::press_clip(Workspace& workspace, const ClipUnder& clip, double time) {
+  if (!is_open_layer(workspace, clip.layer))
+    return workspace.messages.say("This layer is locked or hidden.");
+  workspace.choose_layer(clip.layer);
+  held_ = Held::clip;
+  clip_drag_.start(workspace, clip.kind, time);
 }
 
 void TimelineRows::press(Workspace& workspace, ImVec2 pointer) {
@@ -295,6 +309,8 @@ void TimelineRows::press(Workspace& workspace, ImVec2 pointer) {
         drag_.start(workspace, kind, time);
         return;
       }
+  if (const auto clip = clip_under(workspace, pointer); clip && !key && !adds)
+    return press_clip(workspace, *clip, time);
   if (!key) {
     held_ = Held::box;
     before_box_ = adds ? timeline.keys : KeySelection{};
@@ -324,8 +340,7 @@ void TimelineRows::select_in_box(Workspace& workspace, ImVec2 to) {
               low = std::min(pressed_.y, to.y), high = std::max(pressed_.y, to.y);
   KeySelection keys = before_box_;
   for (size_t i = 0; i < rows_.size(); ++i) {
-    const float middle = top_ + px(kRow) * (static_cast<float>(i) + 0.5f);
-    if (middle < low || middle > high) continue;
+    if (middle_of(i) < low || middle_of(i) > high) continue;
     const int id = workspace.document.scene().layers[rows_[i].layer]->id;
     for (const double time : rows_[i].times)
       if (ruler_.x(time) >= left && ruler_.x(time) <= right) keys.insert({id, time});
@@ -341,6 +356,10 @@ void TimelineRows::follow(Workspace& workspace, ImVec2 pointer) {
   Timeline& timeline = workspace.shown.timeline;
   moved_ = moved_ || std::abs(pointer.x - pressed_.x) + std::abs(pointer.y - pressed_.y) > px(4);
   if (held_ == Held::box && moved_) select_in_box(workspace, pointer);
+  if (held_ == Held::clip && moved_) {
+    grows_ = ruler_.grow_to(pointer.x);
+    clip_drag_.follow(workspace, ruler_.time(pointer.x), ImGui::GetIO().KeyAlt);
+  }
   if (held_ != Held::keys || !moved_) return;
   grows_ = ruler_.grow_to(pointer.x);
   drag_.follow(workspace, ruler_.time(pointer.x), ImGui::GetIO().KeyAlt);
@@ -379,10 +398,15 @@ void TimelineRows::handle_keys(Workspace& workspace) {
     if (!workspace.shown.timeline.keys.empty()) ImGui::OpenPopup("keys");
   }
   if (under && held_ == Held::nothing) tooltip(text_of(workspace, *under));
+  const auto clip = hovered && !under ? clip_under(workspace, pointer) : std::nullopt;
+  over_film_ = clip || held_ == Held::clip;
+  if (clip)
+    ImGui::SetMouseCursor(clip->kind == ClipDrag::Kind::move ? ImGuiMouseCursor_Hand
+                                                             : ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated() && ImGui::IsMouseClicked(0)) press(workspace, pointer);
   if (active && held_ != Held::time)
     follow(workspace, pointer);
-  else if (held_ == Held::keys || held_ == Held::box)
+  else if (held_ != Held::time && held_ != Held::nothing)
     release(workspace, pointer);
 }
 
@@ -391,11 +415,12 @@ void TimelineRows::release(Workspace& workspace, ImVec2 pointer) {
     workspace.shown.timeline.keys = {*pressed_key_};
     workspace.go_to_time(pressed_key_->time);
   }
-  if (held_ == Held::box && !moved_) {
+  if ((held_ == Held::box || held_ == Held::clip) && !moved_) {
     workspace.shown.timeline.keys.clear();
     workspace.go_to_time(snapped(workspace.document.scene(), ruler_.time(pointer.x)));
   }
   drag_.end();
+  clip_drag_.end(workspace);
   held_ = Held::nothing;
 }
 
@@ -441,8 +466,11 @@ void TimelineRows::draw(Workspace& workspace, Thumbnails& thumbnails) {
   }
   list.PushClipRect({at.x + names, corner.y},
                     {at.x + width, at.y + height * static_cast<float>(rows_.size())}, true);
-  for (size_t i = 0; i < rows_.size(); ++i)
-    draw_keys(workspace, rows_[i], at.y + height * (static_cast<float>(i) + 0.5f));
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    if (const auto bar = clip_bar(workspace, i))
+      bar->draw(list, ruler_.left(), ruler_.right() + px(kMargin));
+    draw_keys(workspace, rows_[i], middle_of(i));
+  }
   draw_selection_box(workspace);
   ImGui::SetCursorScreenPos({at.x + names, at.y});
   ImGui::InvisibleButton(

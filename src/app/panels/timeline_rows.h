@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "app/panels/time_ruler.h"
+#include "app/panels/clip_bar.h"
 #include "app/thumbnails.h"
 #include "edit/tools/key_drag.h"
 
@@ -22,9 +22,11 @@ class TimelineRows {
   bool take_growth() { return std::exchange(grows_, false); }
   /// Whether the pointer is on the ruler or on the keyframes.
   bool hovered() const { return hovered_; }
+  /// Whether the pointer is on the bar of a film.
+  bool over_film() const { return over_film_; }
 
  private:
-  enum class Held { nothing, time, keys, box };
+  enum class Held { nothing, time, keys, clip, box };
   /// The keyframes of a layer, or of a part of its pose, such as "Pins".
   struct Row {
     size_t layer = 0;
@@ -35,13 +37,24 @@ class TimelineRows {
   void draw_ruler(Workspace& workspace, float names);
   void draw_name(Workspace& workspace, const Row& row, ImVec2 at, float width,
                  Thumbnails& thumbnails);
-  void draw_clip(const Clip& clip, float middle) const;
   void draw_keys(const Workspace& workspace, const Row& row, float middle) const;
   void draw_selection_box(const Workspace& workspace);
   void draw_menu(Workspace& workspace);
   void draw_time(const Workspace& workspace, ImVec2 corner, float left) const;
   void handle_keys(Workspace& workspace);
+  /// The row at a height; none if there is none.
+  std::optional<size_t> row_at(float y) const;
+  float middle_of(size_t row) const;
+  /// The bar of a row; none if the row is not that of a film.
+  std::optional<ClipBar> clip_bar(const Workspace& workspace, size_t row) const;
   std::optional<KeyId> key_under(const Workspace& workspace, ImVec2 pointer) const;
+  /// The layer whose film's bar is under the pointer, and what a drag of it does.
+  struct ClipUnder {
+    size_t layer = 0;
+    ClipDrag::Kind kind = ClipDrag::Kind::move;
+  };
+  std::optional<ClipUnder> clip_under(const Workspace& workspace, ImVec2 pointer) const;
+  void press_clip(Workspace& workspace, const ClipUnder& clip, double time);
   void press(Workspace& workspace, ImVec2 pointer);
   void follow(Workspace& workspace, ImVec2 pointer);
   void release(Workspace& workspace, ImVec2 pointer);
@@ -55,9 +68,10 @@ class TimelineRows {
   Held held_ = Held::nothing;
   ImVec2 pressed_{};
   std::optional<KeyId> pressed_key_;
-  bool moved_ = false, hovered_ = false, grows_ = false;
+  bool moved_ = false, hovered_ = false, over_film_ = false, grows_ = false;
   KeySelection before_box_;
   KeyDrag drag_;
+  ClipDrag clip_drag_;
 };
 
 }  // namespace holomorph

@@ -44,6 +44,7 @@ const std::vector<Gesture>& gestures() {
       {"Drag keyframes", "move them; with Alt, between frames; with Ctrl, copy them"},
       {"Drag in the timeline's rows", "select keyframes with a box; with Shift, add to them"},
       {"Drag a bar of the keyframes' box", "stretch their time"},
+      {"Drag a film on the timeline", "move it; at its ends, trim it; with Alt, between frames"},
       {"Drag with the middle button or Space", "pan"},
       {"Wheel", "zoom at the pointer"},
       {"Right-click", "open the menu of what is under the pointer"},
