@@ -7,6 +7,7 @@ _holomorph() {
     --flattening) words="lscm circle" ;;
     --frames) words="all" ;;
     --engine) words="slurm" ;;
+    --depth) words="8 16 32" ;;
     --time | --scale | --overscan | --rate | --order | --detail | --vertices | --margin | --filter | --rect | --chunk | --rounds | --max-*) return ;;
   esac
   if [ -n "$words" ]; then

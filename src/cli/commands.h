@@ -41,7 +41,8 @@ struct RenderCommand : SceneCommand {
   std::optional<Box> rectangle = {};
   bool force = false;
   Moments moments = {};
-  bool missing = false;  ///< draw only frames that have no file yet
+  bool missing = false;           ///< draw only frames that have no file yet
+  std::optional<int> depth = {};  ///< bits per color; none: as is usual in the format
 };
 /// A film whose frames many machines draw.
 struct FarmCommand : RenderCommand {

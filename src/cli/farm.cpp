@@ -40,6 +40,7 @@ Path this_program() {
 std::string drawing_options(const FarmCommand& command) {
   std::string options = " --scale " + csv_line("%.17g", command.scale);
   if (command.crop) options += " --crop";
+  if (command.depth) options += " --depth " + std::to_string(*command.depth);
   if (command.outside) options += " --allow-outside";
   if (const auto& box = command.rectangle)
     options += csv_line(" --rect %.10g,%.10g,%.10g,%.10g", box->left - kRectangleRounding,

@@ -55,10 +55,15 @@ std::vector<std::string> written_to(const std::string& extension) {
   const auto add = [&](const std::string& text) {
     if (std::ranges::find(writes, text) == writes.end()) writes.push_back(text);
   };
-  for (const PictureFormat& format : picture_formats())
-    if (format.extension == extension) add("the picture");
-  for (const ExportFormat& format : export_formats())
-    if (std::ranges::count(format.extensions, extension) > 0) add(format.writes);
+  const std::string picture = "the picture";
+  const auto format = std::ranges::find(picture_formats(), extension, &PictureFormat::extension);
+  if (format != picture_formats().end()) add(picture);
+  for (const ExportFormat& each : export_formats())
+    if (std::ranges::count(each.extensions, extension) > 0) add(each.writes);
+  if (format == picture_formats().end() || format->depths.size() < 2) return writes;
+  std::vector<std::string> depths;
+  for (const int depth : format->depths) depths.push_back(std::to_string(depth));
+  std::ranges::replace(writes, picture, picture + " (" + joined(depths, " or ") + " bits)");
   return writes;
 }
 
@@ -74,7 +79,7 @@ std::vector<Row> rows() {
     std::vector<std::string> opened;
     for (const FileContent content : kind.contents) opened.push_back(text_of(content));
     if (!kind.needs.empty()) opened[0] += " (needs " + kind.needs + ")";
-    if (is_one(kind, FileContent::scene) || is_one(kind, FileContent::points))
+    if (can_open_as(kind, FileContent::scene) || can_open_as(kind, FileContent::points))
       writes.insert(writes.begin(), opened[0]);
     const bool layered = may_have_layers("a" + kind.extensions[0]);
     rows.push_back({joined(kind.extensions, " "),

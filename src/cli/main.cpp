@@ -122,6 +122,11 @@ void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* cr
       ->excludes(crop);
 }
 
+void add_depth(CLI::App* sub, std::optional<int>& depth) {
+  sub->add_option("--depth", depth,
+                  "Bits per color: 8 or 16 in PNG files, 16 or 32 in OpenEXR files");
+}
+
 void add_scene(CLI::App* sub, SceneCommand& command) {
   sub->add_option("SCENE", command.scene)->required();
   sub->add_flag("--allow-outside", command.outside,
@@ -167,7 +172,8 @@ void CommandLine::add_coordinates(CLI::App& app) {
 }
 
 void CommandLine::add_render(CLI::App& app) {
-  auto* sub = add(app, "render", "Draw the posed scene to a PNG, JPEG or WebP file", render);
+  auto* sub =
+      add(app, "render", "Draw the posed scene to a PNG, JPEG, WebP or OpenEXR file", render);
   add_scene(sub, render);
   sub->add_option("--out", render.out, "File to write; its extension selects the format")
       ->required();
@@ -181,6 +187,7 @@ void CommandLine::add_render(CLI::App& app) {
               "; each becomes a numbered file, such as walk-0007.png for walk.png. All show the "
               "rectangle of the whole motion, or --rect");
   sub->add_flag("--missing", render.missing, "Draw only frames that have no file yet");
+  add_depth(sub, render.depth);
   add_force(sub, render.force);
 }
 
@@ -196,6 +203,7 @@ void CommandLine::add_farm(CLI::App& app) {
   add_rectangle(sub, farm.rectangle,
                 sub->add_flag("--crop", farm.crop,
                               "Crop to the picture's rectangle; by default nothing is cut off"));
+  add_depth(sub, farm.depth);
   sub->add_option("--chunk", farm.chunk, "Frames that one task draws")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

@@ -36,8 +36,19 @@ std::string rectangle_option(int width, int height, Complex corner, double scale
                   height / scale);
 }
 
-void render_frames(const RenderCommand& command, const LoadedScene& loaded,
-                   PictureOptions options) {
+/// The bits per color. Throws Error if the format does not have what is wanted.
+int checked_depth(const PictureFormat& format, const std::optional<int>& wanted) {
+  const int depth = depth_of(format, wanted);
+  if (!wanted || depth == *wanted) return depth;
+  std::string known;
+  for (const int each : format.depths)
+    known += (known.empty() ? "" : " or ") + std::to_string(each);
+  throw Error(ErrorKind::bad_input,
+              "--depth: " + format.extension + " has " + known + " bits per color");
+}
+
+void render_frames(const RenderCommand& command, const LoadedScene& loaded, PictureOptions options,
+                   const PictureFormat& format, int depth) {
   const Scene& scene = loaded.scene;
   const FrameRange range = frames_named(*command.moments.frames, scene);
   std::vector<int> wanted;
@@ -61,8 +72,8 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded,
       RasterResult frame = maker.picture(options);
       said = rectangle_text(frame.image.width, frame.image.height, frame.corner);
       shared = rectangle_option(frame.image.width, frame.image.height, frame.corner, options.scale);
-      files.add([out = numbered(command.out, i), image = std::move(frame.image)] {
-        write_file(out, picture_format_of(out).encode(image));
+      files.add([&format, depth, out = numbered(command.out, i), image = std::move(frame.image)] {
+        write_file(out, format.encode(image, depth));
         return out;
       });
     }
@@ -227,7 +238,7 @@ void check_options(const ExportCommand& command) {
 }  // namespace
 
 void run(const RenderCommand& command) {
-  const LoadedScene loaded = read_scene(command);
+  LoadedScene loaded = read_scene(command);
   const Moments& moments = command.moments;
   if (moments.any()) require_keyframes(loaded.scene, command.scene);
   if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
@@ -239,19 +250,22 @@ void run(const RenderCommand& command) {
                 "each frame is a file of its own; give a file name with --out");
   // Fails early if the format is unknown. Standard output gets a PNG.
   const PictureFormat& format = picture_format_of(standard ? Path("out.png") : command.out);
+  const int depth = checked_depth(format, command.depth);
   PictureOptions options;
   options.view = view_named(command.view);
+  options.fine = needs_fine_pixels(depth);
+  if (options.fine) loaded.pictures = loaded.pictures.fine();
   options.scale = command.scale;
   options.crop = command.crop;
   options.region = command.rectangle;
   options.time = moments.time;
-  if (moments.frames) return render_frames(command, loaded, options);
+  if (moments.frames) return render_frames(command, loaded, options, format, depth);
   RasterResult result;
   std::string bytes;
   {
     const Progress progress("render");
     result = picture_of(loaded.scene, loaded.image(), options, loaded.pictures);
-    bytes = format.encode(result.image);
+    bytes = format.encode(result.image, depth);
   }
   write_result(command.out, bytes);
   std::fprintf(stderr, "%s: %s\n", shown_output(command.out).c_str(),

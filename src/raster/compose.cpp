@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "core/error.h"
@@ -38,6 +37,9 @@ float blended(Blending mode, float over, float under) {
 /// Multiplies the alpha of all pixels by the opacity.
 void fade(Image& image, const LayerInk& ink) {
   if (ink.opacity == 255) return;
+  for (size_t i = 3; i < image.fine.size(); i += 4)
+    image.fine[i] *= static_cast<float>(ink.opacity) / 255;
+  if (!image.fine.empty()) return round_fine(image);
   for (size_t i = 3; i < image.pixels.size(); i += 4)
     image.pixels[i] = static_cast<std::uint8_t>(divided_by_255(image.pixels[i] * ink.opacity));
 }
@@ -97,16 +99,23 @@ Composition::Layer Composition::layer_of(const RasterResult& picture) {
   const Image& image = picture.image;
   Layer layer{image.width, image.height, picture.corner, {}};
   layer.pixels.resize(image.pixels.size() / 4);
-  for (size_t i = 0; i < layer.pixels.size(); ++i) {
-    const std::uint8_t* from = &image.pixels[4 * i];
-    const float alpha = static_cast<float>(from[3]) / 255;
-    for (size_t k = 0; k < 3; ++k) layer.pixels[i][k] = alpha * (static_cast<float>(from[k]) / 255);
-    layer.pixels[i][3] = alpha;
-  }
+  const auto take = [&](const auto* from) {
+    for (Pixel& pixel : layer.pixels) {
+      const float alpha = static_cast<float>(from[3]) / 255;
+      for (size_t k = 0; k < 3; ++k) pixel[k] = alpha * (static_cast<float>(from[k]) / 255);
+      pixel[3] = alpha;
+      from += 4;
+    }
+  };
+  if (image.fine.empty())
+    take(image.pixels.data());
+  else
+    take(image.fine.data());
   return layer;
 }
 
 void Composition::add(RasterResult picture, const LayerInk& ink) {
+  is_fine_ |= !picture.image.fine.empty();
   if (ink.clipped) {
     check(base_.has_value(), "Composition: the first picture is not clipped");
     if (!group_) group_ = layer_of(*base_);
@@ -135,6 +144,16 @@ RasterResult Composition::result() && {
   }
   const Layer layer = take_all();
   RasterResult result{Image(layer.width, layer.height), layer.corner};
+  if (is_fine_) {
+    result.image.fine.reserve(result.image.pixels.size());
+    for (const Pixel& from : layer.pixels) {
+      for (size_t k = 0; k < 3; ++k)
+        result.image.fine.push_back(from[3] > 0 ? 255 * (from[k] / from[3]) : 0);
+      result.image.fine.push_back(255 * from[3]);
+    }
+    round_fine(result.image);
+    return result;
+  }
   for (size_t i = 0; i < layer.pixels.size(); ++i) {
     const Pixel& from = layer.pixels[i];
     std::uint8_t* to = &result.image.pixels[4 * i];
@@ -194,16 +213,21 @@ Box filled_box(const RasterResult& result, double pixels_per_unit) {
 RasterResult cropped_to_filled(RasterResult result, double pixels_per_unit) {
   const PixelRange range = filled_range(result.image);
   if (range.empty()) return result;
-  RasterResult cropped{
-      Image(range.right - range.left, range.bottom - range.top),
+  return {
+      cut_out(result.image, range.left, range.top, range.right - range.left,
+              range.bottom - range.top),
       result.corner + Complex(range.left, result.image.height - range.bottom) / pixels_per_unit};
-  for (int r = 0; r < cropped.image.height; ++r)
-    std::memcpy(cropped.image.at(0, r), result.image.at(range.left, range.top + r),
-                4 * static_cast<size_t>(cropped.image.width));
-  return cropped;
 }
 
 void composite_onto_color(Image& image, const std::array<std::uint8_t, 3>& color) {
+  for (size_t i = 0; i < image.fine.size(); i += 4) {
+    float* pixel = &image.fine[i];
+    const float alpha = pixel[3] / 255;
+    for (size_t k = 0; k < 3; ++k)
+      pixel[k] = alpha * pixel[k] + (1 - alpha) * static_cast<float>(color[k]);
+    pixel[3] = 255;
+  }
+  if (!image.fine.empty()) return round_fine(image);
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
     std::uint8_t* pixel = &image.pixels[i];
     const unsigned alpha = pixel[3];

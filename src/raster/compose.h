@@ -31,7 +31,7 @@ class Composition {
   /// must not be clipped.
   void add(RasterResult picture, const LayerInk& ink = {});
   bool empty() const { return !base_; }
-  /// The result in 8-bit straight alpha. There must be a picture.
+  /// The result in straight alpha, with fine pixels if a picture has some. There must be a picture.
   RasterResult result() &&;
 
  private:
@@ -48,6 +48,7 @@ class Composition {
   Layer take_all();
 
   double pixels_per_unit_;
+  bool is_fine_ = false;  ///< some picture has fine pixels
   std::optional<Layer> below_;
   std::optional<RasterResult> base_;  ///< the last picture that is not clipped
   LayerInk base_ink_;

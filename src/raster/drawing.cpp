@@ -56,6 +56,7 @@ class Drawing {
         scale_(job.pixels_per_unit),
         is_placed_(!is_identity(job.placement)),
         output_(width, height) {
+    if (job.fine) output_.fine.resize(output_.pixels.size());
     if (job.source && job.view == View::image && job.surroundings) {
       if (job.fringe)
         add_triangles(*job.fringe, job.fringe_positions);
@@ -69,6 +70,7 @@ class Drawing {
   Image draw() {
     parallel_for(
         static_cast<int>(bands_.size()), [&](int band) { draw_band(band); }, {}, job_.threads);
+    round_fine(output_);
     return std::move(output_);
   }
 
@@ -271,7 +273,9 @@ class Drawing {
 
   Float4 color_at(const Piece& piece, int column, int row) const {
     const SourceMap& map = piece.map;
-    if (job_.view == View::image) return source_color(*job_.source, map, column, row);
+    if (job_.view == View::image)
+      return job_.fine ? fine_source_color(*job_.source, map, column, row)
+                       : source_color(*job_.source, map, column, row);
     const double x = column + 0.5, y = row + 0.5;
     const double u = map.u0 + map.ux * x + map.uy * y, v = map.v0 + map.vx * x + map.vy * y;
     if (job_.view == View::checker) {
@@ -285,12 +289,17 @@ class Drawing {
     return Float4{color[0] * 255, color[1] * 255, color[2] * 255, 255};
   }
 
-  void draw_row(const Piece& piece, const PixelSpan& span) const {
-    if (job_.view == View::image) return draw_span_fast(*job_.source, piece.map, span);
-    for (int column = span.begin; column < span.end; ++column)
-      if (span.draws(column))
-        draw_pixel(color_at(piece, column, span.row),
-                   span.pixels + 4 * static_cast<size_t>(column));
+  void draw_row(const Piece& piece, const PixelSpan& span) {
+    if (job_.view == View::image && !job_.fine)
+      return draw_span_fast(*job_.source, piece.map, span);
+    for (int column = span.begin; column < span.end; ++column) {
+      if (!span.draws(column)) continue;
+      const Float4 color = color_at(piece, column, span.row);
+      if (job_.fine)
+        draw_pixel(color, &output_.fine[output_.index(column, span.row)]);
+      else
+        draw_pixel(color, span.pixels + 4 * static_cast<size_t>(column));
+    }
   }
 
   void draw_piece(const Piece& piece, Canvas& canvas) {
@@ -367,8 +376,12 @@ class Drawing {
         sum += alpha * sample;
       }
       const Float4 color = alike ? samples[0] : Sampler::straight(sum / float{kSub * kSub});
-      const int pixel = canvas.slot_pixel[slot];
-      store(color, output_.at(pixel % canvas.width, canvas.first_row + pixel / canvas.width));
+      const int pixel = canvas.slot_pixel[slot], column = pixel % canvas.width,
+                row = canvas.first_row + pixel / canvas.width;
+      if (job_.fine)
+        store(color, &output_.fine[output_.index(column, row)]);
+      else
+        store(color, output_.at(column, row));
     }
   }
 

@@ -188,6 +188,7 @@ class PictureMaker::LayerMaker {
     job.region = options.region;
     job.crop = options.crop;
     job.top = top;
+    job.fine = options.fine;
     return job;
   }
 

@@ -16,6 +16,7 @@ struct PictureOptions {
   bool crops_to_filled = false;  ///< crop to the pixels that are not transparent, before the
                                  ///< background is added
   bool automatic_range = false;
+  bool fine = false;               ///< the result has fine pixels
   std::optional<Box> region = {};  ///< draw exactly this part of the plane
   /// Seconds on the timeline; if not set, the scene's pose, and the frames of films that the
   /// pictures show.

@@ -30,12 +30,11 @@ std::optional<TexelOffset> texel_offset(const SourceMap& map, const PixelSpan& s
   return TexelOffset{static_cast<int>(column), static_cast<int>(row)};
 }
 
-}  // namespace
-
-Float4 source_color(const Image& source, const SourceMap& map, int column, int row) {
+template <class Channel>
+Float4 sampled(const Image& source, const SourceMap& map, int column, int row) {
   const double x = column + 0.5, y = row + 0.5;
   const double u = map.u0 + map.ux * x + map.uy * y, v = map.v0 + map.vx * x + map.vy * y;
-  const Sampler sampler(source);
+  const SamplerOf<Channel> sampler(source);
   if (map.taps_x * map.taps_y == 1) return sampler.at(u, v);
   Float4 sum{};
   for (int ty = 0; ty < map.taps_y; ++ty)
@@ -47,6 +46,17 @@ Float4 source_color(const Image& source, const SourceMap& map, int column, int r
       sum += alpha * color;
     }
   return Sampler::straight(sum / static_cast<float>(map.taps_x * map.taps_y));
+}
+
+}  // namespace
+
+Float4 source_color(const Image& source, const SourceMap& map, int column, int row) {
+  return sampled<std::uint8_t>(source, map, column, row);
+}
+
+Float4 fine_source_color(const Image& source, const SourceMap& map, int column, int row) {
+  return source.fine.empty() ? sampled<std::uint8_t>(source, map, column, row)
+                             : sampled<float>(source, map, column, row);
 }
 
 void draw_span(const Image& source, const SourceMap& map, const PixelSpan& span) {

@@ -31,6 +31,8 @@ struct PixelSpan {
 
 /// The color that a pixel of the output shows, in straight alpha.
 Float4 source_color(const Image& source, const SourceMap& map, int column, int row);
+/// The same, from the source's fine pixels if it has some.
+Float4 fine_source_color(const Image& source, const SourceMap& map, int column, int row);
 
 /// How spans are drawn.
 struct SpanDrawer {

@@ -2,8 +2,6 @@
 // under the map.
 #include "raster/raster.h"
 
-#include <cstring>
-
 #include "core/error.h"
 #include "raster/drawing.h"
 
@@ -41,12 +39,8 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
          column_empty(right - 1))
     --right;
   if (right - left == image.width && bottom - top == image.height) return;
-  Image cut(right - left, bottom - top);
-  for (int r = 0; r < cut.height; ++r)
-    if (cut.width > 0)
-      std::memcpy(cut.at(0, r), image.at(left, r + top), static_cast<size_t>(cut.width) * 4);
-  frame = {frame.left + left, frame.top + top, cut.width, cut.height};
-  image = std::move(cut);
+  image = cut_out(image, left, top, right - left, bottom - top);
+  frame = {frame.left + left, frame.top + top, image.width, image.height};
 }
 
 /// The bounding box of the source's rectangle where the job places it.

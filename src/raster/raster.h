@@ -35,6 +35,7 @@ struct RasterJob {
   bool crop = false;           ///< crop to the source's rectangle; otherwise crop nothing
   std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
   std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the source's top
+  bool fine = false;           ///< the result has fine pixels
   int threads = 0;             ///< if 0, one per processor core
 
   /// The size of the source's rectangle; zero without a source.
@@ -53,8 +54,9 @@ struct RasterResult {
 /// Draws a job. Colors are interpolated bilinearly in premultiplied form, with up to 8 x 8 samples
 /// per pixel where the map shrinks. The edges of the cage's image are antialiased by 4 x 4 coverage
 /// samples. Triangles are drawn in mesh order, later ones on top. The identity map reproduces the
-/// source bit for bit. Throws Error{bad_input} if the result would be empty or have more than 16384
-/// pixels on a side. Cost with AVX2: about 20 ns per pixel of the cage's image on one core.
+/// source bit for bit. Fine pixels are computed by portable code. Throws Error{bad_input} if the
+/// result would be empty or have more than 16384 pixels on a side. Cost with AVX2: about 20 ns per
+/// pixel of the cage's image on one core.
 RasterResult rasterized(const RasterJob& job);
 
 }  // namespace holomorph

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 #include "scene/formats/image.h"
 
@@ -46,6 +47,16 @@ inline void store(Float4 color, std::uint8_t* out) {
 }
 #endif
 
+inline Float4 load(const float* p) {
+  Float4 color;
+  std::memcpy(&color, p, sizeof color);
+  return color;
+}
+/// Only 8-bit pixels are rounded.
+inline void store(Float4 color, float* out) {
+  std::memcpy(out, &color, sizeof color);
+}
+
 inline bool same(Float4 a, Float4 b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
@@ -56,11 +67,12 @@ inline int floor_of(double x) {
   return i - (x < i);
 }
 
-/// Samples an image that is transparent outside its rectangle. u points right and v down; pixel
-/// centers are at half-integers.
-class Sampler {
+/// Samples the pixels or the fine pixels of an image, which is transparent outside its rectangle. u
+/// points right and v down; pixel centers are at half-integers.
+template <class Channel>
+class SamplerOf {
  public:
-  explicit Sampler(const Image& image) : image_(image) {}
+  explicit SamplerOf(const Image& image) : image_(image) {}
 
   Float4 at(double u, double v) const {
     // Extrapolation at a silhouette may lead far outside the picture.
@@ -73,12 +85,12 @@ class Sampler {
     const float w[4] = {(1 - wx) * (1 - wy), wx * (1 - wy), (1 - wx) * wy, wx * wy};
     Float4 t[4];
     if (c >= 0 && r >= 0 && c + 1 < image_.width && r + 1 < image_.height) {
-      const std::uint8_t* p = image_.at(c, r);
-      const std::uint8_t* q = image_.at(c, r + 1);
-      const int every = p[3] & p[7] & q[3] & q[7], any = p[3] | p[7] | q[3] | q[7];
-      if (any == 0) return Float4{};
+      const Channel* p = at(c, r);
+      const Channel* q = at(c, r + 1);
+      const auto [least, most] = std::minmax({p[3], p[7], q[3], q[7]});
+      if (most == 0) return Float4{};
       t[0] = load(p), t[1] = load(p + 4), t[2] = load(q), t[3] = load(q + 4);
-      if (every == 255) return w[0] * t[0] + w[1] * t[1] + w[2] * t[2] + w[3] * t[3];  // all opaque
+      if (least == 255) return w[0] * t[0] + w[1] * t[1] + w[2] * t[2] + w[3] * t[3];  // all opaque
     } else {
       t[0] = texel(c, r), t[1] = texel(c + 1, r), t[2] = texel(c, r + 1),
       t[3] = texel(c + 1, r + 1);
@@ -106,10 +118,17 @@ class Sampler {
  private:
   Float4 texel(int c, int r) const {
     if (c < 0 || r < 0 || c >= image_.width || r >= image_.height) return Float4{};
-    return load(image_.at(c, r));
+    return load(at(c, r));
+  }
+  const Channel* at(int c, int r) const {
+    if constexpr (std::is_same_v<Channel, float>)
+      return &image_.fine[image_.index(c, r)];
+    else
+      return image_.at(c, r);
   }
   const Image& image_;
 };
+using Sampler = SamplerOf<std::uint8_t>;
 
 /// The operator "over" in straight color: `top` composited over `below`.
 inline Float4 over(Float4 top, Float4 below) {
@@ -122,7 +141,8 @@ inline Float4 over(Float4 top, Float4 below) {
 }
 
 /// Composites a color onto a pixel.
-inline void draw_pixel(Float4 color, std::uint8_t* out) {
+template <class Channel>
+void draw_pixel(Float4 color, Channel* out) {
   store(out[3] == 0 ? color : over(color, load(out)), out);
 }
 

@@ -51,7 +51,7 @@ void Footage::keep(int number, const Frame& image) {
   std::function<void()> wake;
   {
     const std::lock_guard lock(mutex_);
-    frame_bytes_ = image->pixels.size();
+    frame_bytes_ = image->pixels.size() + sizeof(float) * image->fine.size();
     kept_[number] = {image, ++clock_};
     while (kept_.size() > capacity())
       kept_.erase(

@@ -118,6 +118,25 @@ void Pictures::put(const ImageReference& reference, Picture picture) {
   all_[source_of(reference)] = std::move(picture);
 }
 
+Pictures Pictures::fine() const {
+  Pictures result = *this;
+  PixelBudget pixels;
+  for (auto& [source, picture] : result.all_) {
+    if (source.moves && !is_film(source.file)) {
+      picture.footage =
+          std::make_shared<Footage>(open_numbered_pictures(source.file, PixelDepth::full));
+      continue;
+    }
+    if (source.moves || !source.entry.empty() || !path_exists(source.file)) continue;
+    const std::string bytes = read_file(source.file);
+    if (!(is_png(bytes) || is_exr(bytes)) || sha256_hex(bytes) != picture.sha256) continue;
+    picture.image =
+        std::make_shared<const Image>(decode_image(bytes, source.file, pixels, PixelDepth::full));
+  }
+  result.frames_.clear();
+  return result;
+}
+
 void Pictures::add(const Pictures& others) {
   all_.insert(others.all_.begin(), others.all_.end());
   withheld_.insert(others.withheld_.begin(), others.withheld_.end());

@@ -77,6 +77,9 @@ class Pictures {
   void withhold(const std::string& file) { withheld_.insert(file); }
   const std::set<std::string>& withheld() const { return withheld_; }
   void release() { withheld_.clear(); }
+  /// The same pictures with the fine pixels that their files have. Those whose files have changed
+  /// stay as they are. Cost: reads the files again. Throws Error.
+  Pictures fine() const;
   /// Adds the pictures and the withheld files of another collection.
   void add(const Pictures& others);
   /// The total number of pixels in all pictures.

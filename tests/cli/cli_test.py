@@ -803,7 +803,7 @@ class CommandLine(Case):
                 self.assertEqual(image.format, kind)
                 sizes.add(image.size)
         self.assertEqual(len(sizes), 1)
-        self.bad("render", scene, "--out", self.path("a.bmp"), says="a.bmp: pictures are written as .png, .jpg or .webp")
+        self.bad("render", scene, "--out", self.path("a.bmp"), says="a.bmp: pictures are written as .png, .jpg, .webp or .exr")
         self.assertFalse(os.path.exists(self.path("a.bmp")))
 
     def test_damaged_open_raster_is_said(self):

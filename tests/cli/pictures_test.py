@@ -1,4 +1,4 @@
-# Pictures with more than 8 bits, written by other programs: linear colors become sRGB.
+# Pictures with more than 8 bits: those of other programs are read, and ours are read by them.
 import os
 import random
 import struct
@@ -58,12 +58,40 @@ class DeepPictures(Case):
 
     def shown(self, name):
         """The picture as the program reads it."""
-        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": name}, "cage": {"rest": []}})
-        self.good("render", scene, "--out", self.path("out.png"), "--force")
+        self.good("render", self.scene_of(name), "--out", self.path("out.png"), "--force")
         return numpy.asarray(Image.open(self.path("out.png")).convert("RGBA")).astype(float)
 
     def oiio(self, *words):
         subprocess.run(["oiiotool", *words], check=True, cwd=self.folder, capture_output=True)
+
+    def floats(self, name):
+        """The channels of a picture as oiiotool reads them: 1 is white, and nothing is converted."""
+        planes = []
+        for channel in "RGBA":
+            self.oiio("--no-autopremult", name, "--ch", channel, "--origin", "+0+0", "--fullpixels", "-d", "float",
+                      "--compression", "none", "-o", "plane.tif")
+            planes.append(numpy.asarray(Image.open(self.path("plane.tif"))).astype(float))
+        return numpy.dstack(planes)
+
+    def write_exr(self, name, pixels):
+        """An OpenEXR file of floats."""
+        planes = []
+        for k in range(4):
+            Image.fromarray(pixels[..., k].astype(numpy.float32), "F").save(self.path(f"plane-{k}.tif"))
+            planes += [f"plane-{k}.tif"] + (["--chappend"] if k else [])
+        self.oiio(*planes, "--chnames", "R,G,B,A", "-d", "float", "-o", name)
+
+    def scene_of(self, name):
+        return self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": name}, "cage": {"rest": []}})
+
+    def bent_scene(self, name, width, height, method):
+        """A scene whose cage is moved at random."""
+        box = [[0.1, 0.1], [0.5, 0.05], [0.9, 0.1], [0.95, 0.5], [0.9, 0.9], [0.5, 0.95], [0.1, 0.9], [0.05, 0.5]]
+        rest = numpy.array(box) * (width, height)
+        pose = rest + self.rng.uniform(-0.08, 0.08, rest.shape) * (width, height)
+        cage = {"rest": [[[*p]] for p in rest.tolist()], "pose": [[[*p]] for p in pose.tolist()]}
+        return self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": name}, "cage": cage,
+                                         "method": {"id": method}})
 
     def random_picture(self, opaque=False):
         pixels = self.rng.integers(0, 256, (37, 53, 4)).astype(numpy.uint8)
@@ -153,6 +181,100 @@ class DeepPictures(Case):
         shown = self.shown("wide.png")
         self.assertLessEqual(numpy.abs(shown[..., :3] - srgb(colors[..., :3] / 65535 @ WIDE_TO_SRGB.T)).max(), 1.6)
         self.assertLessEqual(numpy.abs(shown[..., 3] - colors[..., 3] / 257).max(), 0.51)
+
+    def test_what_is_not_bent_keeps_its_16_bits(self):
+        colors = self.rng.integers(0, 65536, (20, 30, 4))
+        colors[:, 10:, 3] = 65535
+        colors[:5, :5, 3] = 0
+        with open(self.path("in.png"), "wb") as file:
+            file.write(png16(colors))
+        self.good("render", self.scene_of("in.png"), "--depth", "16", "--out", self.path("out.png"))
+        self.assertLess(numpy.abs(self.floats("out.png") * 65535 - colors).max(), 0.01)
+        self.good("render", self.scene_of("in.png"), "--out", self.path("eight.png"))
+        eight = numpy.asarray(Image.open(self.path("eight.png"))).astype(float)
+        self.assertLessEqual(numpy.abs(eight - colors / 257).max(), 0.51)
+
+    def test_profiles_of_16_bits_are_applied_exactly(self):
+        colors = self.rng.integers(0, 65536, (20, 20, 4))
+        with open(self.path("in.png"), "wb") as file:
+            file.write(png16(colors, 1))
+        self.good("render", self.scene_of("in.png"), "--depth", "16", "--out", self.path("out.png"))
+        self.assertLess(numpy.abs(self.floats("out.png")[..., :3] - srgb(colors[..., :3] / 65535) / 255).max(), 2e-4)
+        gray = numpy.arange(400).reshape(20, 20, 1) * 160
+        with open(self.path("gray.png"), "wb") as file:
+            file.write(png16(gray, 1))
+        self.good("render", self.scene_of("gray.png"), "--depth", "16", "--out", self.path("out.png"), "--force")
+        self.assertLess(numpy.abs(self.floats("out.png")[..., :3] - srgb(gray / 65535) / 255).max(), 2e-4)
+
+    def test_open_exr_keeps_bright_and_dark_colors(self):
+        pixels = numpy.exp2(self.rng.uniform(-14, 5, (20, 30, 4)))
+        pixels[..., 3] = self.rng.uniform(0.05, 1, (20, 30))
+        self.write_exr("in.exr", pixels)
+        for depth, precision in ((32, 1e-5), (16, 1e-3)):
+            self.good("render", self.scene_of("in.exr"), "--depth", depth, "--out", self.path("out.exr"), "--force")
+            self.assertLess(numpy.abs(self.floats("out.exr") / pixels - 1).max(), precision)
+        self.good("render", self.scene_of("in.exr"), "--out", self.path("usual.exr"))
+        self.assertEqual((self.floats("usual.exr") == self.floats("out.exr")).all(), True)
+
+    def test_bent_pictures_are_as_fine_as_exact_ones(self):
+        """A gradient is linear in sRGB, so that bilinear samples are exact, and the color is known from the map. It changes
+        by 10 of 65535 steps in a pixel."""
+        y, x = numpy.mgrid[0:120, 0:160] + 0.5
+        shade = (x / 160 + y / 120) / 40 + 0.3
+        with open(self.path("in.png"), "wb") as file:
+            file.write(png16((65535 * shade).round()[..., None]))
+        for method in ("cage", "mean_value", "harmonic", "arap"):
+            scene = self.bent_scene("in.png", 160, 120, method)
+            self.good("render", scene, "--crop", "--depth", "16", "--out", self.path("out.png"), "--force")
+            self.good("render", scene, "--crop", "--out", self.path("eight.png"), "--force")
+            self.good("export", scene, "--format", "stmap", "--out", self.path("st.exr"), "--force")
+            bent, st = self.floats("out.png"), self.floats("st.exr")
+            inside = st[..., 3] == 1
+            self.assertGreater(inside.mean(), 0.4)
+            exact = (st[..., 0] + 1 - st[..., 1]) / 40 + 0.3
+            off = numpy.abs(bent[..., 0] - exact)[inside]
+            # Pictures are drawn with a mesh, ST-maps are closer to the map. Where the map folds, both may show other parts.
+            self.assertLess(numpy.median(off), 4 / 65535, method)
+            self.assertLess(numpy.quantile(off, 0.95), 20 / 65535, method)
+            eight = numpy.asarray(Image.open(self.path("eight.png"))).astype(float)
+            self.assertLessEqual(numpy.abs(eight / 255 - bent)[..., :3].max(), 1.01 / 255, method)
+            self.assertGreater(len(numpy.unique((bent[..., 0] * 65535).round()[inside])), 500)
+
+    def test_layers_are_put_together_with_all_bits(self):
+        y, x = numpy.mgrid[0:40, 0:60]
+        below = numpy.dstack([0.2 + 0.001 * x, 0.3 + 0 * x, 0.25 + 0.001 * y, 1 + 0 * x])
+        above = numpy.dstack([0.6 + 0 * x, 0.002 * y, 0.1 + 0.001 * x, 0.5 + 0.005 * x])
+        for name, pixels in (("below.png", below), ("above.png", above)):
+            with open(self.path(name), "wb") as file:
+                file.write(png16((65535 * pixels).round()))
+        opacity = 0.4
+        for blending, mixed in (("normal", lambda b, s: s), ("multiply", lambda b, s: b * s)):
+            layers = [{"id": 1, "name": "below", "image": {"file": "below.png"}, "cage": {"rest": []}},
+                      {"id": 2, "name": "above", "image": {"file": "above.png"}, "cage": {"rest": []},
+                       "opacity": opacity, "blending": blending}]
+            scene = self.write("layers.json", {"format": "holomorph", "version": 2, "layers": layers})
+            self.good("render", scene, "--depth", "16", "--out", self.path("out.png"), "--force")
+            alpha = (round(255 * opacity) / 255) * above[..., 3:]
+            exact = (1 - alpha) * below[..., :3] + alpha * mixed(below[..., :3], above[..., :3])
+            self.assertLess(numpy.abs(self.floats("out.png")[..., :3] - exact).max(), 3 / 65535, blending)
+
+    def test_numbered_open_exr_frames_keep_their_colors(self):
+        for i in range(3):
+            self.write_exr(f"film-{i}.exr", numpy.full((8, 10, 4), [3 + i, 0.001 * (i + 1), 0.5, 1]))
+        image = {"file": "film-0.exr", "clip": {"frames_per_second": 4}}
+        scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": image, "cage": {"rest": []},
+                                          "animation": {"frames_per_second": 4}})
+        self.good("render", scene, "--frames", "all", "--out", self.path("out.exr"))
+        for i in range(3):
+            self.assertLess(numpy.abs(self.floats(f"out-{i:04}.exr")[0, 0] / [3 + i, 0.001 * (i + 1), 0.5, 1] - 1).max(), 1e-3)
+
+    def test_depths_that_a_format_does_not_have(self):
+        self.random_picture()
+        scene = self.scene_of("in.png")
+        for name, depth, says in (("a.png", 12, ".png has 8 or 16 bits"), ("a.jpg", 16, ".jpg has 8 bits"),
+                                  ("a.exr", 8, ".exr has 16 or 32 bits")):
+            self.bad("render", scene, "--depth", depth, "--out", self.path(name), says=says)
+            self.assertFalse(os.path.exists(self.path(name)))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,6 @@
 // Reads any bytes as a picture: an Error, or as many pixels as its size states.
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/error.h"
@@ -60,11 +62,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   } catch (const Error&) {
   }
   try {
-    const Image image = decode_image(bytes, "fuzz");
+    PixelBudget alone;
+    const Image image =
+        decode_image(bytes, "fuzz", alone, size % 2 ? PixelDepth::full : PixelDepth::eight_bits);
     check(image.width > 0 && image.height > 0 &&
               image.pixels.size() ==
                   4u * static_cast<size_t>(image.width) * static_cast<size_t>(image.height),
           "a picture has as many pixels as its size says");
+    check(image.fine.empty() || image.fine.size() == image.pixels.size(),
+          "all pixels are fine, or none");
+    check(std::ranges::all_of(image.fine, [](float x) { return x >= 0 && std::isfinite(x); }),
+          "fine pixels are finite");
   } catch (const Error&) {
   }
   return 0;

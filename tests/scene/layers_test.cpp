@@ -378,7 +378,7 @@ TEST_CASE("Pictures are written in the format of their file name and read back")
       std::copy_n(pixel, 4, image.at(c, r));
     }
   const auto written = [&](const char* name) {
-    return decode_image(picture_format_of(name).encode(image), name);
+    return decode_image(picture_format_of(name).encode(image, 8), name);
   };
   CHECK(written("a.png") == image);
   CHECK(written("a") == image);

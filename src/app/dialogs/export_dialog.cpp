@@ -359,7 +359,24 @@ void ExportDialog::draw_scale() {
     settings_.scale = std::round(percent) / 100;
 }
 
+/// The bits per color, if there is a choice.
+void ExportDialog::draw_depth() {
+  const auto format = std::ranges::find(picture_formats(), format_extension(settings_.path),
+                                        &PictureFormat::extension);
+  if (settings_.kind != ExportKind::picture || format == picture_formats().end() ||
+      format->depths.size() < 2)
+    return;
+  const int depth = depth_of(*format, settings_.depth);
+  const auto text = [](int bits) { return std::to_string(bits) + " bits per color"; };
+  row_label("Depth");
+  if (!begin_dropdown("##Depth", text(depth))) return;
+  for (const int each : format->depths)
+    if (dropdown_row(text(each), each == depth)) settings_.depth = each;
+  end_dropdown();
+}
+
 void ExportDialog::draw_look() {
+  draw_depth();
   draw_scale();
   row_label("Region");
   const auto region = static_cast<size_t>(settings_.region);
@@ -467,6 +484,7 @@ ExportEstimate::Question ExportDialog::question() const {
   return {.scene = std::move(scene),
           .options = options,
           .extension = format_extension(settings_.path),
+          .depth = settings_.depth,
           .film = film,
           .first = settings_.first,
           .frames = film ? frames() : 1};

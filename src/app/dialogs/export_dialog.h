@@ -35,6 +35,7 @@ class ExportDialog {
  private:
   void draw_file();
   void draw_format();
+  void draw_depth();
   void draw_scale();
   void draw_look();
   void draw_frames();

@@ -68,13 +68,15 @@ std::optional<double> estimate(const ExportEstimate::Question& question, const P
                                           ->encode(layered_picture_of(
                                               scene, pictures.of(scene.layer()), options, pictures))
                                           .size());
-  const Image small = maker.picture(options).image;
-  if (progress.cancelled()) return {};
   const bool is_still = std::ranges::any_of(picture_formats(), [&](const PictureFormat& format) {
     return format.extension == question.extension;
   });
   const PictureFormat& format = picture_format_of(is_still ? "a" + question.extension : "a.webp");
-  const double bytes = static_cast<double>(format.encode(small).size());
+  const int depth = depth_of(format, question.depth);
+  options.fine = needs_fine_pixels(depth);
+  const Image small = maker.picture(options).image;
+  if (progress.cancelled()) return {};
+  const double bytes = static_cast<double>(format.encode(small, depth).size());
   return bytes * more * (1 + kLaterFrame * (question.frames - 1));
 }
 
@@ -85,7 +87,7 @@ bool ExportEstimate::Question::operator==(const Question& other) const {
     const PictureOptions& o = q.options;
     const Box box = o.region.value_or(Box{});
     return std::tuple(o.view, o.scale, o.crops_to_filled, box.left, box.bottom, box.right, box.top,
-                      o.time, q.extension, q.film, q.first, q.frames);
+                      o.time, q.extension, q.depth, q.film, q.first, q.frames);
   };
   return values(*this) == values(other) && meshes == other.meshes && scene == other.scene;
 }

@@ -18,6 +18,7 @@ class ExportEstimate {
     Scene scene;
     PictureOptions options = {};
     std::string extension;
+    std::optional<int> depth = {};  ///< of a picture, as in ExportSettings
     bool film = false;
     int first = 0, frames = 1;
     std::optional<MeshExport> meshes = {};  ///< if meshes are exported

@@ -36,17 +36,25 @@ std::string exported_film(const ExportWork& work, Job::Progress& progress) {
 }
 
 std::string exported_picture(const ExportWork& work, Job::Progress& progress) {
-  const Image* image = work.pictures.of(work.scene.layer());
   const LayeredFormat* layered = layered_format_of(work.settings.path);
   LayeredPicture picture;
-  if (layered)
-    picture =
-        layered_picture_of(work.scene, image, work.options, work.pictures, layered->keeps_drawings);
-  else
-    picture.merged = picture_of(work.scene, image, work.options, work.pictures).image;
-  if (progress.cancelled()) return "";
-  const std::string bytes = layered ? layered->encode(picture)
-                                    : picture_format_of(work.settings.path).encode(picture.merged);
+  std::string bytes;
+  if (layered) {
+    picture = layered_picture_of(work.scene, work.pictures.of(work.scene.layer()), work.options,
+                                 work.pictures, layered->keeps_drawings);
+    if (progress.cancelled()) return "";
+    bytes = layered->encode(picture);
+  } else {
+    const PictureFormat& format = picture_format_of(work.settings.path);
+    const int depth = depth_of(format, work.settings.depth);
+    PictureOptions options = work.options;
+    options.fine = needs_fine_pixels(depth);
+    const Pictures pictures = options.fine ? work.pictures.fine() : work.pictures;
+    picture.merged =
+        picture_of(work.scene, pictures.of(work.scene.layer()), options, pictures).image;
+    if (progress.cancelled()) return "";
+    bytes = format.encode(picture.merged, depth);
+  }
   if (progress.cancelled()) return "";
   write_file(work.settings.path, bytes);
   std::string message = "Exported " + name_of(work) + ", " +

@@ -14,7 +14,8 @@ struct ExportSettings {
   enum class Region { all, picture, canvas };
   Path path;  ///< its extension determines the format
   ExportKind kind = ExportKind::picture;
-  double scale = 1;  ///< output pixels per image pixel
+  std::optional<int> depth;  ///< bits per color of a picture; none: as is usual in the format
+  double scale = 1;          ///< output pixels per image pixel
   Region region = Region::all;
   std::optional<Background> background;  ///< none: the scene's
   int first = 0, last = 0;               ///< frames

@@ -1,5 +1,5 @@
-// Reads OpenEXR files from memory with the library OpenEXR. Their colors are linear and
-// premultiplied. Values above white are clipped.
+// Reads OpenEXR files from memory with the library OpenEXR, and writes pictures in this format.
+// Their colors are linear and premultiplied. With 8 bits, values above white are clipped.
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
@@ -18,6 +18,8 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "scene/budget.h"
+#include "scene/formats/exr.h"
 #include "scene/formats/image_formats.h"
 
 namespace holomorph {
@@ -115,10 +117,16 @@ float finite(float sample) {
   return sample == sample ? std::clamp(sample, -most, most) : 0;
 }
 
+/// From linear to sRGB. The curve continues above white. NaN and negative numbers become 0.
+float srgb_of(float linear) {
+  if (!(linear > 0)) return 0;
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+float linear_of(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
 std::uint8_t srgb_byte(float linear) {
-  const float x = linear > 0 ? std::min(linear, 1.0f) : 0;  // also for NaN
-  const float value = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(255 * value));
+  return static_cast<std::uint8_t>(std::lround(255 * srgb_of(std::min(linear, 1.0f))));
 }
 
 struct Sample {
@@ -191,13 +199,17 @@ class Rows {
 };
 
 /// The display window of a file, transparent where it has no pixels.
-Image read_display(Rows& rows, const std::string& name, PixelBudget& pixels) {
+Image read_display(Rows& rows, const std::string& name, PixelBudget& pixels, PixelDepth depth) {
   const Imath::Box2i shown = rows.header().displayWindow(), stored = rows.header().dataWindow();
   const auto side = [](int low, int high) {
     return static_cast<size_t>(std::max<std::int64_t>(std::int64_t{high} - low + 1, 0));
   };
   pixels.take(side(shown.min.x, shown.max.x), side(shown.min.y, shown.max.y), name);
   Image image(shown.max.x - shown.min.x + 1, shown.max.y - shown.min.y + 1);
+  constexpr double kFineCopies = 5;  // of 8 bits; very large pictures are rounded at once
+  const bool keeps_fine =
+      depth == PixelDepth::full && kFineCopies * image.width * image.height <= budget().pixels;
+  if (keeps_fine) image.fine.resize(image.pixels.size());
   const bool is_srgb = !Imf::hasChromaticities(rows.header());
   const Imath::M33f matrix =
       is_srgb ? Imath::M33f() : to_linear_srgb(Imf::chromaticities(rows.header()));
@@ -214,6 +226,10 @@ Image read_display(Rows& rows, const std::string& name, PixelBudget& pixels) {
       std::uint8_t* out = image.at(x - shown.min.x, y - shown.min.y);
       for (int k = 0; k < 3; ++k) out[k] = srgb_byte(color[k]);
       out[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
+      if (!keeps_fine) continue;
+      float* fine = &image.fine[image.index(x - shown.min.x, y - shown.min.y)];
+      for (int k = 0; k < 3; ++k) fine[k] = 255 * srgb_of(color[k]);
+      fine[3] = 255 * alpha;
     }
   }
   return image;
@@ -225,7 +241,8 @@ bool is_exr(const std::string& bytes) {
   return bytes.starts_with("\x76\x2f\x31\x01");
 }
 
-Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                 PixelDepth depth) {
   constexpr int kLargest = 16384, kLargestTile = 2048;
   static const bool limited = [] {
     Imf::Header::setMaxImageSize(kLargest, kLargest);
@@ -237,7 +254,7 @@ Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget&
     check_memory(bytes, name);
     BytesStream stream(bytes, name);
     Rows rows(stream, name);
-    return read_display(rows, name, pixels);
+    return read_display(rows, name, pixels, depth);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -245,6 +262,20 @@ Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget&
   } catch (const std::exception& error) {
     throw Error(ErrorKind::bad_input, name + ": the picture cannot be read: " + error.what());
   }
+}
+
+std::string encode_exr(const Image& image, int depth) {
+  FloatImage linear{image.width, image.height, 0, std::vector<float>(image.pixels.size())};
+  for (size_t i = 0; i < linear.pixels.size(); i += 4) {
+    const auto from = [&](size_t k) {
+      return (image.fine.empty() ? static_cast<float>(image.pixels[i + k]) : image.fine[i + k]) /
+             255;
+    };
+    const float alpha = from(3);
+    for (size_t k = 0; k < 3; ++k) linear.pixels[i + k] = alpha * linear_of(from(k));
+    linear.pixels[i + 3] = alpha;
+  }
+  return exr_of(linear, depth == 32 ? FloatBits::single : FloatBits::half);
 }
 
 }  // namespace holomorph

@@ -59,16 +59,37 @@ Image upright(Image image, int orientation) {
                                  : orientation == 7 ? std::pair(w - r, h - c)
                                                     : std::pair(w - r, c);
       std::memcpy(result.at(c, r), image.at(column, row), 4);
+      if (image.fine.empty()) continue;
+      result.fine.resize(image.fine.size());
+      std::copy_n(&image.fine[image.index(column, row)], 4, &result.fine[result.index(c, r)]);
     }
   return result;
 }
 
-Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
-  if (is_png(bytes)) return decode_png(bytes, name, pixels);
+void round_fine(Image& image) {
+  for (size_t i = 0; i < image.fine.size(); ++i)
+    image.pixels[i] = static_cast<std::uint8_t>(std::clamp(image.fine[i] + 0.5f, 0.0f, 255.0f));
+}
+
+Image cut_out(const Image& image, int left, int top, int width, int height) {
+  Image part(width, height);
+  if (!image.fine.empty()) part.fine.resize(part.pixels.size());
+  const size_t row = 4 * static_cast<size_t>(width);
+  for (int r = 0; r < height && width > 0; ++r) {
+    const size_t from = image.index(left, top + r), to = part.index(0, r);
+    std::copy_n(&image.pixels[from], row, &part.pixels[to]);
+    if (!image.fine.empty()) std::copy_n(&image.fine[from], row, &part.fine[to]);
+  }
+  return part;
+}
+
+Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                   PixelDepth depth) {
+  if (is_png(bytes)) return decode_png(bytes, name, pixels, depth);
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name, pixels);
   if (is_webp(bytes)) return decode_webp(bytes, name, pixels);
   if (is_tiff(bytes)) return decode_tiff(bytes, name, pixels);
-  if (is_exr(bytes)) return decode_exr(bytes, name, pixels);
+  if (is_exr(bytes)) return decode_exr(bytes, name, pixels, depth);
   if (is_gif(bytes)) return decode_gif(bytes, name, pixels);
   if (is_ora(bytes)) return decode_ora(bytes, name, pixels);
   if (is_svg(bytes)) return decode_svg(bytes, name, pixels);
@@ -124,10 +145,22 @@ std::string encode_jpeg(const Image& image) {
 }  // namespace
 
 const std::vector<PictureFormat>& picture_formats() {
-  static const std::vector<PictureFormat> all{{"PNG picture", ".png", encode_png},
-                                              {"JPEG picture", ".jpg", encode_jpeg},
-                                              {"WebP picture", ".webp", encode_webp}};
+  static const std::vector<PictureFormat> all{
+      {"PNG picture",
+       ".png",
+       {8, 16},
+       [](const Image& image, int depth) {
+         return depth == 16 ? encode_png_16(image) : encode_png(image);
+       }},
+      {"JPEG picture", ".jpg", {8}, [](const Image& image, int) { return encode_jpeg(image); }},
+      {"WebP picture", ".webp", {8}, [](const Image& image, int) { return encode_webp(image); }},
+      {"OpenEXR picture", ".exr", {16, 32}, encode_exr}};
   return all;
+}
+
+int depth_of(const PictureFormat& format, const std::optional<int>& wanted) {
+  const bool has_it = wanted && std::ranges::count(format.depths, *wanted) > 0;
+  return has_it ? *wanted : format.depths[0];
 }
 
 std::string format_extension(const Path& file) {
@@ -141,7 +174,7 @@ const PictureFormat& picture_format_of(const Path& file) {
                                        &PictureFormat::extension);
   if (found == picture_formats().end())
     throw Error(ErrorKind::bad_input,
-                file.string() + ": pictures are written as .png, .jpg or .webp");
+                file.string() + ": pictures are written as .png, .jpg, .webp or .exr");
   return *found;
 }
 

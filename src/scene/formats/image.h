@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/types.h"
@@ -15,19 +16,30 @@ namespace holomorph {
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;  ///< 4 per pixel
+  /// The same pixels before they were rounded, or empty, which is usual. 255 is white or opaque, as
+  /// in `pixels`, but colors may be brighter than white.
+  std::vector<float> fine;
 
   Image() = default;
   Image(int width, int height)
       : width(width), height(height), pixels(static_cast<size_t>(width) * height * 4) {}
   bool operator==(const Image&) const = default;
 
-  const std::uint8_t* at(int column, int row) const {
-    return &pixels[4 * (static_cast<size_t>(row) * width + column)];
+  /// Where a pixel starts in `pixels` and in `fine`.
+  size_t index(int column, int row) const {
+    return 4 * (static_cast<size_t>(row) * static_cast<size_t>(width) + column);
   }
-  std::uint8_t* at(int column, int row) {
-    return &pixels[4 * (static_cast<size_t>(row) * width + column)];
-  }
+  const std::uint8_t* at(int column, int row) const { return &pixels[index(column, row)]; }
+  std::uint8_t* at(int column, int row) { return &pixels[index(column, row)]; }
 };
+
+/// Rounds the fine pixels, which the picture must have, to those of 8 bits.
+void round_fine(Image& image);
+/// A part of a picture, in whole pixels.
+Image cut_out(const Image& image, int left, int top, int width, int height);
+
+/// What is read of pictures with more than 8 bits.
+enum class PixelDepth { eight_bits, full };
 
 /// The number of pixels that may still be decoded for the pictures of a scene.
 class PixelBudget {
@@ -45,8 +57,10 @@ class PixelBudget {
 
 /// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, OpenEXR, SVG, GIF, BMP, TGA and PSD. The result is
 /// upright and in sRGB. `name` is used in messages. Throws Error{bad_input} if the bytes are not a
-/// picture, or if the picture is damaged, truncated or too large.
-Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels);
+/// picture, or if the picture is damaged, truncated or too large. With PixelDepth::full, PNG files
+/// of 16 bits and OpenEXR files have fine pixels.
+Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                   PixelDepth depth = PixelDepth::eight_bits);
 inline Image decode_image(const std::string& bytes, const std::string& name) {
   PixelBudget alone;
   return decode_image(bytes, name, alone);
@@ -61,11 +75,18 @@ std::string encode_png(const Image& image);
 /// A file format for writing pictures.
 struct PictureFormat {
   std::string label, extension;
-  std::string (*encode)(const Image& image);
+  std::vector<int> depths;  ///< the bits that colors may have; the usual number first
+  std::string (*encode)(const Image& image, int depth);
 };
-/// PNG, JPEG and WebP. JPEG has no transparency; transparent areas become white. WebP is lossless
-/// for all visible pixels.
+/// PNG, JPEG, WebP and OpenEXR. JPEG has no transparency; transparent areas become white. WebP is
+/// lossless for all visible pixels. OpenEXR is linear and premultiplied.
 const std::vector<PictureFormat>& picture_formats();
+/// The wanted depth if the format has it; otherwise the usual one.
+int depth_of(const PictureFormat& format, const std::optional<int>& wanted);
+/// Whether colors with this number of bits need fine pixels.
+inline bool needs_fine_pixels(int depth) {
+  return depth > 8;
+}
 /// A file's extension in normal form: lower case, and .jpg instead of .jpeg.
 std::string format_extension(const Path& file);
 /// The format for a file's extension, or PNG for a file without one. Throws Error{bad_input} for

@@ -10,7 +10,8 @@ namespace holomorph {
 // Decoders of still pictures. The results are upright and in sRGB. `name` is used in messages. All
 // throw Error{bad_input} if the data is damaged or truncated, or exceeds the budget.
 bool is_png(const std::string& bytes);
-Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels);
+Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                 PixelDepth depth);
 bool is_jpeg(const std::string& bytes);
 Image decode_jpeg(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 bool is_webp(const std::string& bytes);
@@ -18,7 +19,8 @@ Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget
 bool is_tiff(const std::string& bytes);
 Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 bool is_exr(const std::string& bytes);
-Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels);
+Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                 PixelDepth depth);
 bool is_gif(const std::string& bytes);
 Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget& pixels);
 /// OpenRaster: the merged picture of all layers that the file contains.
@@ -31,6 +33,11 @@ Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget&
 std::optional<Image> decode_plain(const std::string& bytes, const std::string& name,
                                   PixelBudget& pixels);
 
+/// A PNG file with 16 bits, in sRGB. Throws Error{failed}.
+std::string encode_png_16(const Image& image);
+/// An OpenEXR file with linear, premultiplied colors of `depth` bits, 16 or 32. The primaries are
+/// those of sRGB. Throws Error{failed}.
+std::string encode_exr(const Image& image, int depth);
 /// Lossless for all visible pixels; the colors of fully transparent pixels may change. Throws
 /// Error{failed}.
 std::string encode_webp(const Image& image);

@@ -62,7 +62,8 @@ std::optional<NumberedName> numbered_name(const Path& file) {
 
 class NumberedPictures final : public FrameReader {
  public:
-  explicit NumberedPictures(const Path& first) : files_(numbered_pictures(first)) {
+  NumberedPictures(const Path& first, PixelDepth depth)
+      : files_(numbered_pictures(first)), depth_(depth) {
     if (files_.empty())
       throw Error(ErrorKind::bad_input,
                   first.string() +
@@ -74,7 +75,8 @@ class NumberedPictures final : public FrameReader {
 
   Image read(int frame) override {
     const Path& file = files_[static_cast<size_t>(frame)];
-    Image image = decode_image(read_file(file), file.string());
+    PixelBudget alone;
+    Image image = decode_image(read_file(file), file.string(), alone, depth_);
     if (width_ == 0) width_ = image.width, height_ = image.height;
     if (image.width != width_ || image.height != height_)
       throw Error(ErrorKind::bad_input,
@@ -86,6 +88,7 @@ class NumberedPictures final : public FrameReader {
 
  private:
   std::vector<Path> files_;
+  PixelDepth depth_;
   int width_ = 0, height_ = 0;  ///< of the frame that was read first
 };
 
@@ -118,8 +121,8 @@ Path first_numbered_picture(const Path& any) {
   return first == name->number ? any : name->with(first);
 }
 
-std::unique_ptr<FrameReader> open_numbered_pictures(const Path& first) {
-  return std::make_unique<NumberedPictures>(first);
+std::unique_ptr<FrameReader> open_numbered_pictures(const Path& first, PixelDepth depth) {
+  return std::make_unique<NumberedPictures>(first, depth);
 }
 
 }  // namespace holomorph

@@ -10,7 +10,8 @@ namespace holomorph {
 
 /// Opens pictures whose names end with successive numbers, beginning with this one. Throws
 /// Error{bad_input} if its name does not end with a number.
-std::unique_ptr<FrameReader> open_numbered_pictures(const Path& first);
+std::unique_ptr<FrameReader> open_numbered_pictures(const Path& first,
+                                                    PixelDepth depth = PixelDepth::eight_bits);
 /// The files of these pictures: this one, and those with the numbers after it up to the first gap.
 /// A link that leads out of the folder is a gap. Empty if the file's name does not end with a
 /// number.

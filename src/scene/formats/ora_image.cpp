@@ -51,7 +51,7 @@ class Archive {
   Image picture(const std::string& entry, PixelBudget& pixels) const {
     const std::string bytes = read(entry);
     if (!is_png(bytes)) fail(name_, entry + " is not a PNG file");
-    return decode_png(bytes, name_ + ", " + entry, pixels);
+    return decode_png(bytes, name_ + ", " + entry, pixels, PixelDepth::eight_bits);
   }
 
   std::string read(const std::string& entry, zip_uint64_t most = kLargestEntry) const {

@@ -1,7 +1,8 @@
 // Reads PNG files from memory with libpng. Any bit depth is converted to 8 bits, after colors are
-// converted to sRGB. The result is upright.
+// converted to sRGB. The result is upright. Also writes those of 16 bits.
 #include <png.h>
 
+#include <algorithm>
 #include <bit>
 #include <csetjmp>
 #include <cstring>
@@ -18,7 +19,8 @@ namespace {
 /// interrupt therefore have no local objects with destructors; such objects are members instead.
 class PngReader {
  public:
-  PngReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {
+  PngReader(const std::string& bytes, const std::string& name, PixelDepth depth)
+      : bytes_(bytes), name_(name), keeps_fine_(depth == PixelDepth::full) {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, [](auto, auto) {});
     if (png_) info_ = png_create_info_struct(png_);
     if (!info_) throw Error(ErrorKind::failed, name + ": not enough memory for a PNG picture");
@@ -54,20 +56,25 @@ class PngReader {
  private:
   /// Very large pictures are rounded first, because there is no memory for both.
   void take_pixels(PixelBudget& pixels) {
-    constexpr double kDeepCopies = 3;  // two bytes instead of one, and the result
-    is_deep_ = depth_ == 16 && (profile_size_ > 0 || gamma_ > 0) &&
-               kDeepCopies * width_ * height_ <= budget().pixels;
+    // Two bytes instead of one, and the result, whose fine pixels have four.
+    const double copies = keeps_fine_ ? 7 : 3;
+    is_deep_ = depth_ == 16 && (keeps_fine_ || profile_size_ > 0 || gamma_ > 0) &&
+               copies * width_ * height_ <= budget().pixels;
     pixels.take(width_, height_, name_);
   }
 
   void convert() {
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
-    if (is_deep_)
+    if (is_deep_) {
       image_ = profile_size_ > 0 ? in_srgb(deep_, profile) : in_srgb(deep_, primaries_, gamma_);
-    else if (profile_size_ > 0)
+      if (keeps_fine_)
+        image_.fine = profile_size_ > 0 ? fine_in_srgb(deep_, profile)
+                                        : fine_in_srgb(deep_, primaries_, gamma_);
+    } else if (profile_size_ > 0) {
       to_srgb(image_, profile);
-    else if (gamma_ > 0)
+    } else if (gamma_ > 0) {
       to_srgb(image_, primaries_, gamma_);
+    }
     deep_ = {};
   }
 
@@ -147,6 +154,7 @@ class PngReader {
   size_t at_ = 0;
   bool ended_ = false;
   int depth_ = 8;
+  bool keeps_fine_;
   bool is_deep_ = false;  ///< samples of 16 bits are converted before they are rounded to 8 bits
   char message_[200] = "";
   png_structp png_ = nullptr;
@@ -163,14 +171,73 @@ class PngReader {
   std::vector<png_bytep> rows_;
 };
 
+/// Like PngReader, for longjmp.
+class PngWriter {
+ public:
+  explicit PngWriter(const Image& image)
+      : image_(image), row_(4 * static_cast<size_t>(image.width)) {
+    const auto fail = [](png_structp png, png_const_charp) { png_longjmp(png, 1); };
+    png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, [](auto, auto) {});
+    if (png_) info_ = png_create_info_struct(png_);
+    if (!info_) throw Error(ErrorKind::failed, "not enough memory for a PNG picture");
+  }
+  ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+
+  std::string bytes() {
+    if (setjmp(png_jmpbuf(png_)) == 0)
+      write();
+    else
+      throw Error(ErrorKind::failed, "the picture could not be encoded as PNG");
+    return std::move(bytes_);
+  }
+
+ private:
+  void write() {
+    const auto append = [](png_structp png, png_bytep data, size_t size) {
+      static_cast<std::string*>(png_get_io_ptr(png))
+          ->append(reinterpret_cast<const char*>(data), size);
+    };
+    png_set_write_fn(png_, &bytes_, append, [](auto) {});
+    png_set_IHDR(png_, info_, static_cast<png_uint_32>(image_.width),
+                 static_cast<png_uint_32>(image_.height), 16, PNG_COLOR_TYPE_RGB_ALPHA,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png_, info_, PNG_sRGB_INTENT_RELATIVE);
+    png_write_info(png_, info_);
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
+    for (int r = 0; r < image_.height; ++r) {
+      for (size_t i = 0; i < row_.size(); ++i) row_[i] = sample(image_.index(0, r) + i);
+      png_write_row(png_, reinterpret_cast<png_bytep>(row_.data()));
+    }
+    png_write_end(png_, info_);
+  }
+  std::uint16_t sample(size_t i) const {
+    constexpr float kStep = 257;  // 16-bit steps per 8-bit step
+    if (image_.fine.empty()) return static_cast<std::uint16_t>(257 * image_.pixels[i]);
+    return static_cast<std::uint16_t>(std::clamp(kStep * image_.fine[i] + 0.5f, 0.0f, 65535.0f));
+  }
+
+  const Image& image_;
+  std::vector<std::uint16_t> row_;
+  std::string bytes_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
+
 }  // namespace
 
 bool is_png(const std::string& bytes) {
   return bytes.starts_with("\x89PNG");
 }
 
-Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
-  return PngReader(bytes, name).read(pixels);
+Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                 PixelDepth depth) {
+  return PngReader(bytes, name, depth).read(pixels);
+}
+
+std::string encode_png_16(const Image& image) {
+  return PngWriter(image).bytes();
 }
 
 }  // namespace holomorph

@@ -50,7 +50,7 @@ Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget&
   if (drawn->status != 0 || !is_png(drawn->output))
     throw Error(ErrorKind::bad_input, name + ": rsvg-convert cannot draw this SVG file");
   PixelBudget again;
-  Image image = decode_png(drawn->output, name, again);
+  Image image = decode_png(drawn->output, name, again, PixelDepth::eight_bits);
   if (image.width != document.columns || image.height != document.rows)
     throw Error(ErrorKind::failed, name + ": rsvg-convert drew this file in another size");
   return image;

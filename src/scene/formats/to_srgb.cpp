@@ -3,6 +3,7 @@
 
 #include <lcms2.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace holomorph {
@@ -27,11 +28,12 @@ Profile opened(const std::string& bytes) {
   return Profile(cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
 }
 
-Conversion conversion(const Profile& from, cmsUInt32Number format) {
+Conversion conversion(const Profile& from, cmsUInt32Number format, cmsUInt32Number to = TYPE_RGBA_8,
+                      cmsUInt32Number alpha = cmsFLAGS_COPY_ALPHA) {
   const Profile srgb(cmsCreate_sRGBProfile());
-  return Conversion(cmsCreateTransform(from.get(), format, srgb.get(), TYPE_RGBA_8,
+  return Conversion(cmsCreateTransform(from.get(), format, srgb.get(), to,
                                        INTENT_RELATIVE_COLORIMETRIC,
-                                       cmsFLAGS_COPY_ALPHA | cmsFLAGS_BLACKPOINTCOMPENSATION));
+                                       alpha | cmsFLAGS_BLACKPOINTCOMPENSATION));
 }
 
 /// Whether a conversion leaves colors unchanged, up to rounding.
@@ -87,11 +89,56 @@ Image converted(const DeepImage& deep, const Profile& profile) {
   return image;
 }
 
+constexpr float kWhole = 65535;  // white or opaque
+
+/// The samples as they are, for a picture in sRGB.
+std::vector<float> fine_samples(const DeepImage& deep) {
+  std::vector<float> fine;
+  fine.reserve(deep.pixels.size());
+  for (const std::uint16_t sample : deep.pixels)
+    fine.push_back(255 * (static_cast<float>(sample) / kWhole));
+  return fine;
+}
+
+/// A channel of a fine pixel, from 1 for white. Damaged profiles lead to any number.
+float fine_channel(float color) {
+  constexpr float kBrightest = 64;
+  return color > 0 ? 255 * std::min(color, kBrightest) : 0;  // also for NaN
+}
+
+/// Floating-point conversions use no tables, so they are exact but slow.
+std::vector<float> fine_converted(const DeepImage& deep, const Profile& profile) {
+  std::vector<float> fine = fine_samples(deep);
+  const Conversion narrow = conversion(profile, TYPE_RGBA_8),
+                   exact = conversion(profile, TYPE_RGBA_FLT, TYPE_RGBA_FLT, 0);
+  if (!narrow || !exact || is_identity(narrow)) return fine;
+  const size_t row = 4 * static_cast<size_t>(deep.width);
+  std::vector<float> colors(row), converted(row);
+  for (size_t start = 0; start < fine.size(); start += row) {
+    for (size_t i = 0; i < row; ++i) colors[i] = fine[start + i] / 255;
+    cmsDoTransform(exact.get(), colors.data(), converted.data(),
+                   static_cast<cmsUInt32Number>(deep.width));
+    for (size_t i = 0; i < row; ++i)
+      if (i % 4 != 3) fine[start + i] = fine_channel(converted[i]);
+  }
+  return fine;
+}
+
 Conversion gray_conversion(const Profile& profile, cmsUInt32Number format) {
-  const Profile srgb(cmsCreate_sRGBProfile());
-  return Conversion(cmsCreateTransform(profile.get(), format, srgb.get(), TYPE_RGBA_8,
-                                       INTENT_RELATIVE_COLORIMETRIC,
-                                       cmsFLAGS_BLACKPOINTCOMPENSATION));
+  return conversion(profile, format, TYPE_RGBA_8, 0);
+}
+
+/// Like fine_converted(), for a gray profile.
+std::vector<float> fine_converted_gray(const DeepImage& deep, const Profile& profile) {
+  std::vector<float> fine = fine_samples(deep);
+  const Conversion gray = conversion(profile, TYPE_GRAY_FLT, TYPE_RGB_FLT, 0);
+  if (!gray) return fine;
+  for (size_t i = 0; i < fine.size(); i += 4) {
+    const float light = static_cast<float>(deep.pixels[i]) / kWhole;
+    cmsDoTransform(gray.get(), &light, &fine[i], 1);
+    for (size_t k = 0; k < 3; ++k) fine[i + k] = fine_channel(fine[i + k]);
+  }
+  return fine;
 }
 
 /// Like converted(), for a gray profile.
@@ -156,6 +203,14 @@ Image in_srgb(const DeepImage& image, const std::string& bytes) {
   return rounded(image);
 }
 
+std::vector<float> fine_in_srgb(const DeepImage& image, const std::string& bytes) {
+  const Profile profile = opened(bytes);
+  const std::string colors = color_space_of(bytes);
+  if (profile && colors == "RGB ") return fine_converted(image, profile);
+  if (profile && colors == "GRAY") return fine_converted_gray(image, profile);
+  return fine_samples(image);
+}
+
 void to_srgb(Image& image, const Chromaticities& primaries, double gamma) {
   if (const Profile profile = profile_of(primaries, gamma))
     convert(image, conversion(profile, TYPE_RGBA_8));
@@ -164,6 +219,12 @@ void to_srgb(Image& image, const Chromaticities& primaries, double gamma) {
 Image in_srgb(const DeepImage& image, const Chromaticities& primaries, double gamma) {
   const Profile profile = profile_of(primaries, gamma);
   return profile ? converted(image, profile) : rounded(image);
+}
+
+std::vector<float> fine_in_srgb(const DeepImage& image, const Chromaticities& primaries,
+                                double gamma) {
+  const Profile profile = profile_of(primaries, gamma);
+  return profile ? fine_converted(image, profile) : fine_samples(image);
 }
 
 struct CmykToSrgb::Transform {
