@@ -209,6 +209,31 @@ class EditorWindowTest(WindowCase):
         with open(out) as ours, open(expected) as theirs:
             self.assertEqual(ours.read(), theirs.read())
 
+    def test_pictures_with_more_bits_from_the_dialog_have_the_bits_of_the_command(self):
+        scene = self.caged((300, 200), [[20, 20], [280, 20], [280, 180], [20, 180]])
+        subprocess.run(["convert", "-size", "300x200", "gradient:#203040-#506070", "-depth", "16", "-define", "png:bit-depth=16",
+                        "-define", "png:color-type=2", os.path.join(self.work, "caged.png")], check=True)
+        with Editor(PROGRAM, [scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the scene")
+            editor.key("r")
+            for name, depth in (("deep.png", 16), ("half.exr", 16), ("single.exr", 32)):
+                out, expected = (os.path.join(self.work, kind + name) for kind in ("window-", "command-"))
+                self.ask(editor, "ctrl+e")
+                editor.key("ctrl+a")
+                editor.type(out)
+                editor.press_item("Depth")
+                editor.press_item(f"{depth} bits per color")
+                time.sleep(0.5)
+                self.screenshot(editor, "export-" + name)
+                editor.key("Return")
+                editor.wait(lambda s: os.path.exists(out) and not s["exporting"] and not s["asking"], "the export", 120)
+                subprocess.run([PROGRAM, "render", scene, "--depth", str(depth), "--out", expected], check=True,
+                               stderr=subprocess.DEVNULL)
+                with open(out, "rb") as ours, open(expected, "rb") as theirs:
+                    self.assertEqual(ours.read(), theirs.read(), name)
+            with open(os.path.join(self.work, "window-deep.png"), "rb") as file:
+                self.assertEqual(file.read()[24], 16)
+
     def test_meshes_and_st_maps_from_the_dialog_have_the_bits_of_the_command(self):
         cage = [[20, 20], [280, 20], [280, 180], [20, 180]]
         scene = self.caged((300, 200), cage)
@@ -227,6 +252,9 @@ class EditorWindowTest(WindowCase):
                 self.ask(editor, "ctrl+e")
                 editor.key("ctrl+a")
                 editor.type(out)
+                if extension == "exr":  # otherwise, it is a picture
+                    editor.press_item("Format")
+                    editor.press_item("ST-map (OpenEXR)")
                 time.sleep(0.5)
                 self.screenshot(editor, "export-" + extension)
                 editor.key("Return")
