@@ -77,7 +77,8 @@ std::string placed_drawing(const SourceDrawing& drawing, const DrawingPlace& pla
 
 std::string layer_drawing(const SourceDrawing& drawing, const Deformation& deformation,
                           bool linear_blend, const std::optional<double>& time,
-                          const DrawingPlace& place, std::vector<std::string>& losses) {
+                          const DrawingPlace& place, std::vector<std::string>& losses,
+                          const std::function<void()>& keep_going) {
   if (!deformation.has_cage()) return placed_drawing(drawing, place, losses);
   TimedMap timed(deformation, linear_blend);
   const bool plays = time && !playing_keys(deformation).empty();
@@ -88,7 +89,7 @@ std::string layer_drawing(const SourceDrawing& drawing, const Deformation& defor
   if (!inside) inside = std::make_unique<MeshPointMap>(mesh, f);
   const ContinuedMap continued(mesh, f, *inside);
   const auto map = [&](std::span<const Complex> points) {
-    std::vector<PointMap::Value> values = values_on_all_cores(continued, points);
+    std::vector<PointMap::Value> values = values_on_all_cores(continued, points, keep_going);
     const Complex factor = place.to_canvas.factor;
     for (PointMap::Value& value : values)
       value = {place.to_canvas(value.f), factor * value.fz, factor * value.fzbar};

@@ -1,6 +1,7 @@
 // Layers whose pictures are SVG drawings, as bent drawings.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,10 +33,12 @@ struct DrawingPlace {
 /// the canvas. Without a time, it is bent by the map of the layer's own pose. Solid parts of the
 /// picture outside the cage stay where they are; all else is clipped by the posed cage. Where the
 /// bent drawing overlaps itself, shapes keep their order. Appends messages about what is lost.
-/// Throws Error.
+/// Calls `keep_going` on this thread from time to time; an exception from it ends the work and is
+/// rethrown. Throws Error.
 std::string layer_drawing(const SourceDrawing& drawing, const Deformation& deformation,
                           bool linear_blend, const std::optional<double>& time,
-                          const DrawingPlace& place, std::vector<std::string>& losses);
+                          const DrawingPlace& place, std::vector<std::string>& losses,
+                          const std::function<void()>& keep_going);
 
 /// The same for a drawing that is not bent.
 std::string placed_drawing(const SourceDrawing& drawing, const DrawingPlace& place,

@@ -30,16 +30,19 @@ DrawnLayer on_canvas(const RasterResult& drawn, const RasterResult& canvas, doub
 class LayerDrawer {
  public:
   LayerDrawer(const Scene& scene, const PictureOptions& options, PictureMaker& maker,
-              const RasterResult& canvas, Pictures drawings, bool writes_drawings)
+              const RasterResult& canvas, Pictures drawings, bool writes_drawings,
+              const std::function<void()>& keep_going)
       : scene_(scene),
         options_(options),
         maker_(maker),
         canvas_(canvas),
         drawings_(std::move(drawings)),
-        writes_drawings_(writes_drawings) {}
+        writes_drawings_(writes_drawings),
+        keep_going_(keep_going) {}
 
   /// A layer as it is bent, with its ink. None if it has no picture.
   std::optional<DrawnLayer> layer(size_t i) {
+    keep_going_();
     const Layer& it = *scene_.layers[i];
     std::optional<DrawnLayer> drawn;
     if (const auto text = drawings_.drawing(it)) {
@@ -105,7 +108,7 @@ class LayerDrawer {
     if (bent) {
       place.to_canvas = composed(to_canvas, maker_.placement(i, options_.time));
       drawn.drawing = layer_drawing(source, it.deformation, scene_.animation.linear_blend,
-                                    options_.time, place, losses);
+                                    options_.time, place, losses, keep_going_);
       for (const std::string& loss : losses) losses_.push_back(drawn.name + ": " + loss);
     } else {
       drawn.drawing = placed_drawing(source, place, losses);
@@ -119,6 +122,7 @@ class LayerDrawer {
   const RasterResult& canvas_;
   Pictures drawings_;  ///< only of drawings that stay drawings
   bool writes_drawings_;
+  const std::function<void()>& keep_going_;
   std::vector<std::string> losses_;
 };
 
@@ -126,7 +130,7 @@ class LayerDrawer {
 
 LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
                                   const PictureOptions& asked, const Pictures& other_pictures,
-                                  bool keeps_drawings) {
+                                  bool keeps_drawings, const std::function<void()>& keep_going) {
   PictureOptions options = asked;
   options.view = View::image;  // the other views show one layer
   PictureMaker maker(scene, source, other_pictures);
@@ -135,7 +139,7 @@ LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
   picture.merged = canvas.image;
   if (scene.background.fill == Background::Fill::color) picture.background = scene.background.color;
   LayerDrawer drawer(scene, options, maker, canvas, keeps_drawings ? other_pictures : Pictures(),
-                     keeps_drawings);
+                     keeps_drawings, keep_going);
   if (scene.background.fill == Background::Fill::original) picture.layers = drawer.originals();
   std::set<size_t> added_layers;
   for (size_t i = 0; i < scene.layers.size(); ++i) {

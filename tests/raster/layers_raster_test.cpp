@@ -376,6 +376,32 @@ TEST_CASE("The layers of a posed scene make its picture") {
   CHECK(layered.layers[1].name == "upper");
 }
 
+TEST_CASE("Work on layers ends as soon as it may not go on, also while a drawing is bent") {
+  TwoLayers two;
+  std::string circles;
+  for (int i = 0; i < 30; ++i)
+    circles += "<circle r='5' cx='" + std::to_string(2 * i) + "' cy='" + std::to_string(i) + "'/>";
+  const auto drawing = std::make_shared<const std::string>(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='40'>" + circles + "</svg>");
+  two.pictures.put(reference("red"),
+                   {std::make_shared<const Image>(filled(60, 40, kRed)), "", {}, {}, drawing});
+  change_layer(two.scene, [](Layer& layer) { layer.visible = false; });
+  const auto calls_until = [&](int most) {
+    struct Stopped {};
+    int calls = 0;
+    try {
+      layered_picture_of(two.scene, &two.blue, {}, two.pictures, true, [&] {
+        if (++calls == most) throw Stopped{};
+      });
+    } catch (Stopped) {
+    }
+    return calls;
+  };
+  const int all = calls_until(0);
+  CHECK(all > 3);  // more than once for each layer
+  for (int most = 1; most < all; ++most) CHECK(calls_until(most) == most);
+}
+
 TEST_CASE("The same layer pixels give the same bits, and a faint lowest layer stays faint") {
   const Image red = filled(4, 4, kRed), blue = filled(4, 4, kBlue);
   const LayerInk half{128, Blending::normal};

@@ -41,8 +41,9 @@ std::string exported_picture(const ExportWork& work, Job::Progress& progress) {
   std::string bytes;
   if (layered) {
     picture = layered_picture_of(work.scene, work.pictures.of(work.scene.layer()), work.options,
-                                 work.pictures, layered->keeps_drawings);
-    if (progress.cancelled()) return "";
+                                 work.pictures, layered->keeps_drawings, [&] {
+                                   if (progress.cancelled()) throw Canceled{};
+                                 });
     bytes = layered->encode(picture);
   } else {
     const PictureFormat& format = picture_format_of(work.settings.path);
