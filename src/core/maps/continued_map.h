@@ -19,10 +19,10 @@ class ContinuedMap final : public PointMap {
   std::vector<Value> values_at(std::span<const Complex> points) const override;
 
  private:
-  /// The nearest point of the boundary, and how points beside it follow.
+  /// The nearest point of the boundary, and how points next to it follow.
   struct Foot {
     Complex at, edge;              ///< the point, and the direction of its edge, of length 1
-    Complex factor, factor_speed;  ///< of points beside it, and its derivative along the edge
+    Complex factor, factor_speed;  ///< of points next to it, and its derivative along the edge
     bool is_corner = false;        ///< all points near z have the same foot
   };
   Foot foot_of(Complex z) const;

@@ -10,6 +10,11 @@
 namespace holomorph {
 namespace {
 
+constexpr size_t kFewestParts = 8, kMostParts = 256;  // of a piece
+constexpr size_t kMostAtOnce = size_t{1} << 22;       // at once
+constexpr double kSpacing = 100;                      // of samples, in tolerances
+constexpr int kMostSplits = 20;
+
 /// A point of an image, and the derivative with respect to the curve's parameter.
 struct CurveSample {
   Complex at, speed;
@@ -65,14 +70,13 @@ class CurveSamples {
 };
 
 /// How many parts a piece has between its samples: at least 8, and as many as keep samples nearer
-/// together than `spacing`.
-size_t part_count(const CurvePiece& piece, double spacing) {
-  constexpr size_t kFewest = 8, kMost = 256;
-  const Points cubic = piece.cubic();
+/// together than `spacing` at rest, if that is possible with `most`.
+size_t part_count(const Points& curve, const CurvePiece& piece, double spacing, size_t most) {
   double length = 0;
-  for (size_t k = 0; k + 1 < cubic.size(); ++k) length += std::abs(cubic[k + 1] - cubic[k]);
-  size_t parts = kFewest;
-  while (parts < kMost && static_cast<double>(parts) * spacing < length) parts *= 2;
+  for (size_t k = 0; k + 1 < curve.size(); ++k) length += std::abs(curve[k + 1] - curve[k]);
+  length *= piece.to - piece.from;
+  size_t parts = kFewestParts;
+  while (2 * parts <= most && static_cast<double>(parts) * spacing < length) parts *= 2;
   return parts;
 }
 
@@ -104,6 +108,21 @@ double largest_error(const CurvePiece& piece, std::span<const CurveSample> insid
   return largest;
 }
 
+/// Asks for evenly spaced samples inside of all pieces. Returns how many each has.
+std::vector<size_t> ask_inside(CurveSamples& samples, const std::vector<Points>& curves,
+                               const std::vector<CurvePiece>& pieces, double spacing) {
+  const size_t most = std::min(kMostParts, kMostAtOnce / pieces.size());
+  std::vector<size_t> counts;
+  for (const CurvePiece& piece : pieces) {
+    const size_t parts = part_count(curves[piece.curve], piece, spacing, most);
+    const double step = (piece.to - piece.from) / static_cast<double>(parts);
+    for (size_t k = 1; k < parts; ++k)
+      samples.ask(piece.curve, piece.from + step * static_cast<double>(k));
+    counts.push_back(parts - 1);
+  }
+  return counts;
+}
+
 }  // namespace
 
 std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
@@ -115,24 +134,15 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
   const std::vector<CurveSample> ends = samples.answers();
   for (size_t c = 0; c < curves.size(); ++c)
     open.push_back({c, 0, 1, ends[2 * c], ends[2 * c + 1]});
-  constexpr int kMostHalvings = 20;
-  constexpr double kSpacing = 100;  // in tolerances
-  size_t left = (size_t{1} << 20) + 512 * curves.size();
+  size_t samples_left = kMostAtOnce + 32 * curves.size();
   for (int halvings = 0; !open.empty(); ++halvings) {
-    std::vector<size_t> counts;
-    for (const CurvePiece& piece : open)
-      counts.push_back(part_count(piece, kSpacing * tolerance) - 1);
-    const size_t needed = std::reduce(counts.begin(), counts.end());
-    if (needed > left) {
+    const std::vector<size_t> counts = ask_inside(samples, curves, open, kSpacing * tolerance);
+    const size_t asked = std::reduce(counts.begin(), counts.end());
+    if (asked > samples_left) {
       finished.insert(finished.end(), open.begin(), open.end());
       break;
     }
-    left -= needed;
-    for (size_t i = 0; i < open.size(); ++i)
-      for (size_t k = 1; k <= counts[i]; ++k)
-        samples.ask(open[i].curve, open[i].from + (open[i].to - open[i].from) *
-                                                      static_cast<double>(k) /
-                                                      static_cast<double>(counts[i] + 1));
+    samples_left -= asked;
     const std::vector<CurveSample> inside = samples.answers();
     std::vector<CurvePiece> halves;
     std::span<const CurveSample> rest = inside;
@@ -140,7 +150,7 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
       const CurvePiece& piece = open[i];
       const std::span its = rest.first(counts[i]);
       rest = rest.subspan(counts[i]);
-      if (halvings == kMostHalvings || largest_error(piece, its) <= tolerance) {
+      if (halvings == kMostSplits || largest_error(piece, its) <= tolerance) {
         finished.push_back(piece);
         continue;
       }

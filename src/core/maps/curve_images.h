@@ -13,11 +13,11 @@ namespace holomorph {
 /// Their ends lie on the curve's image and have its tangents, so that smooth curves stay smooth.
 /// Between them each is within `tolerance` of the image, as far as samples and the tangents there
 /// tell, which includes one kink between two samples. A piece has at least seven samples, and one
-/// every 100 tolerances, but no more than 255. If the map is affine, a curve has a single cubic,
-/// which is exact. Pieces are halved up to 20 times; where the map jumps, the shortest pieces
-/// bridge the gap. `map` is called for many curves at once, about as often as the pieces are
-/// halved. Cost: the samples of each piece that is tried, in all at most 2^20 and 512 for each
-/// curve. What is not close enough then, as a curve that is wound up in a spiral, stays as it is.
+/// every 100 tolerances of its length at rest, but no more than 255. If the map is affine, a curve
+/// has a single cubic, which is exact. Pieces are halved up to 20 times; where the map jumps, the
+/// shortest pieces bridge the gap. `map` is called for many curves at once, about as often as the
+/// pieces are halved. Cost: the samples of each piece that is tried, at most 2^22 and 32 for each
+/// curve. When these are used up, the remaining pieces of all curves are kept as they are.
 std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
                                               const PointValues& map, double tolerance);
 
