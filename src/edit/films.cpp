@@ -17,7 +17,8 @@ void show_film_frames(Workspace& workspace, const std::function<void()>& wake) {
     if (!footage || (i != scene.edited && !is_shown(scene, i))) continue;
     const int number = clip_frame_at(*clip_of(layer), workspace.shown.timeline.time);
     const std::shared_ptr<const Image> frame = footage->frame_now(layer.id, number, wake);
-    if (frame && frame != document.pictures().shared(layer)) document.show_frame(layer, frame);
+    if (frame && frame != document.pictures().shared(layer))
+      document.show_frame(layer, number, frame);
     if (const auto error = footage->take_error()) workspace.messages.complain(*error);
   }
 }

@@ -9,10 +9,10 @@ namespace holomorph {
 /// Where a film plays, in the window.
 class ClipBar {
  public:
-  /// `middle` is the height of its row's middle.
+  /// `middle` is the y of its row's center.
   ClipBar(const TimeRuler& ruler, const Clip& clip, float middle);
 
-  /// Draws it and, in a lighter color, where the film repeats.
+  /// Draws the bar and, fainter from `left` to `right`, where the film repeats.
   void draw(ImDrawList& list, float left, float right) const;
   /// What a drag that starts at a point does; none if it is not on the bar.
   std::optional<ClipDrag::Kind> part_at(ImVec2 point) const;

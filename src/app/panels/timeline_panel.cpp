@@ -54,6 +54,8 @@ double TimelinePanel::height(const Workspace& workspace, const PanelSizes& sizes
 }
 
 std::string TimelinePanel::hint() const {
+  if (rows_.over_ruler())
+    return "Drag to go to a time; the wheel zooms, with Shift it pans; double-click shows all";
   if (rows_.over_film())
     return "Drag a film to move it, or its ends to trim it; Alt moves it between frames";
   return rows_.hovered()

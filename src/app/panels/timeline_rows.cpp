@@ -125,7 +125,7 @@ void TimelineRows::draw_ruler(Workspace& workspace, float names) {
   ImGui::SetCursorScreenPos(at + ImVec2(names, 0));
   ImGui::InvisibleButton("ruler", {std::max(1.0f, width - names), height});
   name_item("ruler");
-  hovered_ = ImGui::IsItemHovered();
+  hovered_ = over_ruler_ = ImGui::IsItemHovered();
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) ruler_.fit();
   if (ImGui::IsItemHovered() && ImGui::GetIO().MouseWheel != 0) {
@@ -266,7 +266,7 @@ std::optional<TimelineRows::ClipUnder> TimelineRows::clip_under(const Workspace&
   const auto row = row_at(pointer.y);
   const auto bar = row ? clip_bar(workspace, *row) : std::nullopt;
   const auto kind = bar ? bar->part_at(pointer) : std::nullopt;
-  if (!kind) return {};
+  if (!kind || !is_open_layer(workspace, rows_[*row].layer)) return {};
   return ClipUnder{rows_[*row].layer, *kind};
 }
 
@@ -274,6 +274,8 @@ std::optional<KeyId> TimelineRows::key_under(const Workspace& workspace, ImVec2 
   const auto number = row_at(pointer.y);
   if (!number) return {};
   const Row& row = rows_[*number];
+  // A bar is higher than keyframes, so that its ends can be dragged where there is one, too.
+  if (clip_bar(workspace, *number) && std::abs(pointer.y - middle_of(*number)) > px(7)) return {};
   std::optional<KeyId> under;
   float nearest = px(9);
   for (const double time : row.times)
@@ -282,14 +284,6 @@ std::optional<KeyId> TimelineRows::key_under(const Workspace& workspace, ImVec2 
       under = KeyId{workspace.document.scene().layers[row.layer]->id, time};
     }
   return under;
-}
-
-void TimelineRows::press_clip(Workspace& workspace, const ClipUnder& clip, double time) {
-  if (!is_open_layer(workspace, clip.layer))
-    return workspace.messages.say("This layer is locked or hidden.");
-  workspace.choose_layer(clip.layer);
-  held_ = Held::clip;
-  clip_drag_.start(workspace, clip.kind, time);
 }
 
 void TimelineRows::press(Workspace& workspace, ImVec2 pointer) {
@@ -309,8 +303,11 @@ void TimelineRows::press(Workspace& workspace, ImVec2 pointer) {
         drag_.start(workspace, kind, time);
         return;
       }
-  if (const auto clip = clip_under(workspace, pointer); clip && !key && !adds)
-    return press_clip(workspace, *clip, time);
+  if (const auto clip = clip_under(workspace, pointer); clip && !key && !adds) {
+    held_ = Held::clip;
+    pressed_clip_ = *clip;
+    return;
+  }
   if (!key) {
     held_ = Held::box;
     before_box_ = adds ? timeline.keys : KeySelection{};
@@ -354,8 +351,14 @@ void TimelineRows::select_in_box(Workspace& workspace, ImVec2 to) {
 
 void TimelineRows::follow(Workspace& workspace, ImVec2 pointer) {
   Timeline& timeline = workspace.shown.timeline;
-  moved_ = moved_ || std::abs(pointer.x - pressed_.x) + std::abs(pointer.y - pressed_.y) > px(4);
+  const bool started =
+      !moved_ && std::abs(pointer.x - pressed_.x) + std::abs(pointer.y - pressed_.y) > px(4);
+  moved_ = moved_ || started;
   if (held_ == Held::box && moved_) select_in_box(workspace, pointer);
+  if (held_ == Held::clip && started) {
+    workspace.choose_layer(pressed_clip_.layer);
+    clip_drag_.start(workspace, pressed_clip_.kind, ruler_.time(pressed_.x));
+  }
   if (held_ == Held::clip && moved_) {
     grows_ = ruler_.grow_to(pointer.x);
     clip_drag_.follow(workspace, ruler_.time(pointer.x), ImGui::GetIO().KeyAlt);
@@ -385,6 +388,18 @@ void TimelineRows::draw_menu(Workspace& workspace) {
   end_menu_popup();
 }
 
+void TimelineRows::show_film_cursor(const Workspace& workspace, ImVec2 pointer, bool hovered) {
+  std::optional<ClipUnder> clip;
+  if (held_ == Held::clip)
+    clip = pressed_clip_;
+  else if (held_ == Held::nothing && hovered)
+    clip = clip_under(workspace, pointer);
+  over_film_ = clip.has_value();
+  if (clip)
+    ImGui::SetMouseCursor(clip->kind == ClipDrag::Kind::move ? ImGuiMouseCursor_Hand
+                                                             : ImGuiMouseCursor_ResizeEW);
+}
+
 /// The item that all keyframes lie on: what the pointer does there.
 void TimelineRows::handle_keys(Workspace& workspace) {
   name_item("keys");
@@ -398,11 +413,7 @@ void TimelineRows::handle_keys(Workspace& workspace) {
     if (!workspace.shown.timeline.keys.empty()) ImGui::OpenPopup("keys");
   }
   if (under && held_ == Held::nothing) tooltip(text_of(workspace, *under));
-  const auto clip = hovered && !under ? clip_under(workspace, pointer) : std::nullopt;
-  over_film_ = clip || held_ == Held::clip;
-  if (clip)
-    ImGui::SetMouseCursor(clip->kind == ClipDrag::Kind::move ? ImGuiMouseCursor_Hand
-                                                             : ImGuiMouseCursor_ResizeEW);
+  show_film_cursor(workspace, pointer, hovered && !under);
   if (ImGui::IsItemActivated() && ImGui::IsMouseClicked(0)) press(workspace, pointer);
   if (active && held_ != Held::time)
     follow(workspace, pointer);

@@ -22,6 +22,8 @@ class TimelineRows {
   bool take_growth() { return std::exchange(grows_, false); }
   /// Whether the pointer is on the ruler or on the keyframes.
   bool hovered() const { return hovered_; }
+  /// Whether the pointer is on the ruler.
+  bool over_ruler() const { return over_ruler_; }
   /// Whether the pointer is on the bar of a film.
   bool over_film() const { return over_film_; }
 
@@ -42,19 +44,21 @@ class TimelineRows {
   void draw_menu(Workspace& workspace);
   void draw_time(const Workspace& workspace, ImVec2 corner, float left) const;
   void handle_keys(Workspace& workspace);
-  /// The row at a height; none if there is none.
+  /// The row at this y; none above and below the rows.
   std::optional<size_t> row_at(float y) const;
+  /// The y of a row's center.
   float middle_of(size_t row) const;
   /// The bar of a row; none if the row is not that of a film.
   std::optional<ClipBar> clip_bar(const Workspace& workspace, size_t row) const;
   std::optional<KeyId> key_under(const Workspace& workspace, ImVec2 pointer) const;
-  /// The layer whose film's bar is under the pointer, and what a drag of it does.
+  /// The layer whose film's bar is under the pointer, and what a drag of it does. None if the layer
+  /// is locked or hidden.
   struct ClipUnder {
     size_t layer = 0;
     ClipDrag::Kind kind = ClipDrag::Kind::move;
   };
   std::optional<ClipUnder> clip_under(const Workspace& workspace, ImVec2 pointer) const;
-  void press_clip(Workspace& workspace, const ClipUnder& clip, double time);
+  void show_film_cursor(const Workspace& workspace, ImVec2 pointer, bool hovered);
   void press(Workspace& workspace, ImVec2 pointer);
   void follow(Workspace& workspace, ImVec2 pointer);
   void release(Workspace& workspace, ImVec2 pointer);
@@ -68,9 +72,10 @@ class TimelineRows {
   Held held_ = Held::nothing;
   ImVec2 pressed_{};
   std::optional<KeyId> pressed_key_;
-  bool moved_ = false, hovered_ = false, over_film_ = false, grows_ = false;
+  bool moved_ = false, hovered_ = false, over_ruler_ = false, over_film_ = false, grows_ = false;
   KeySelection before_box_;
   KeyDrag drag_;
+  ClipUnder pressed_clip_;
   ClipDrag clip_drag_;
 };
 

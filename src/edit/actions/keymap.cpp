@@ -41,6 +41,7 @@ const std::vector<Gesture>& gestures() {
        "turn the corner, or open and close it; with Shift, in steps of 15 degrees"},
       {"Drag an edge (angle tool)", "downward, let it bend; upward, keep it straight"},
       {"Drag the timeline's ruler", "go to a time; with Alt, between frames"},
+      {"Wheel on the timeline's ruler", "zoom in time; with Shift, pan; double-click to see all"},
       {"Drag keyframes", "move them; with Alt, between frames; with Ctrl, copy them"},
       {"Drag in the timeline's rows", "select keyframes with a box; with Shift, add to them"},
       {"Drag a bar of the keyframes' box", "stretch their time"},

@@ -34,6 +34,7 @@ void ClipDrag::follow(Workspace& workspace, double time, bool freely) const {
       break;
     case Kind::trim_end:
       clip.last = std::clamp(last + frames, first, std::max(clip_.frames - 1, first));
+      if (*clip.last == clip_.frames - 1) clip.last.reset();
       break;
   }
   clip.start = std::clamp(clip.start, -kMaxTime, kMaxTime);

@@ -48,7 +48,8 @@ Clip random_clip(std::mt19937& random) {
   clip.frames_per_second = number(5, 60);
   clip.frames = number(2, 300);
   clip.first = number(0, clip.frames - 1);
-  clip.last = number(clip.first, clip.frames - 1);
+  if (number(0, 2) > 0) clip.last = number(clip.first, clip.frames - 1);
+  clip.loops = number(0, 1) == 1;
   clip.start = number(-20, 40) / 10.0;
   return clip;
 }
@@ -76,6 +77,19 @@ TEST_CASE("A dragged film shows the same frames at later times") {
     run("edit.undo", filmed.w);
     CHECK(filmed.clip() == before);
   }
+}
+
+TEST_CASE("A drag that trims nothing is no step") {
+  Clip clip;
+  clip.frames_per_second = 10;
+  clip.frames = 30;
+  Filmed filmed(clip, 24);
+  const size_t before = filmed.w.document.history().index();
+  for (const auto kind : {ClipDrag::Kind::trim_start, ClipDrag::Kind::trim_end})
+    filmed.drag(kind, 3, {3.02, 3.04});
+  filmed.drag(ClipDrag::Kind::trim_end, 3, {2, 5});
+  CHECK(filmed.clip() == clip);
+  CHECK(filmed.w.document.history().index() <= before + 1);
 }
 
 TEST_CASE("A trimmed film keeps the times of its other frames") {
