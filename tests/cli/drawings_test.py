@@ -349,6 +349,22 @@ class Drawings(Case):
             self.assertLess(average, 0.8)
             self.assertLess(far, 0.005)
 
+    def test_texts_are_turned_by_the_map_where_they_are_drawn(self):
+        """Whatever point of a text its position is."""
+        cage, matrices = self.random_cage(1100, 300, 9), []
+        for anchor, x in (("start", 300), ("middle", 400), ("end", 500)):
+            self.write("a.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='1100' height='300'>"
+                       f"<text x='{x}' y='200' font-size='80' text-anchor='{anchor}'>Words</text></svg>")
+            path = self.write("a.json", {"format": "holomorph", "version": 1, "image": {"file": "a.svg"}, "cage": cage})
+            out, _ = self.exported(path)
+            text = next(node for node in ElementTree.parse(out).iter() if node.tag.endswith("text"))
+            numbers = [float(x) for x in re.findall(r"-?[\d.]+(?:e-?\d+)?", text.get("transform"))]
+            self.assertEqual(len(numbers), 6, text.get("transform"))
+            matrices.append(numbers)
+        for numbers in matrices[1:]:
+            for mine, other in zip(numbers, matrices[0]):
+                self.assertAlmostEqual(mine, other, delta=1e-3 * max(1, abs(other)))
+
     def test_losses_are_said(self):
         self.write("a.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='1100' height='300'>"
                    "<text x='100' y='200' font-size='80'>Words</text></svg>")

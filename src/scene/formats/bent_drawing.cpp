@@ -413,24 +413,20 @@ class Bender {
     const auto length = [&](const char* name, double whole) {
       return length_of(node.attribute(name).as_string(), whole).value_or(0);
     };
-    const double x = is_text ? first_place(node, "x", context.viewport.width)
-                             : length("x", context.viewport.width),
-                 y = is_text ? first_place(node, "y", context.viewport.height)
-                             : length("y", context.viewport.height);
-    const double width = is_text ? 0 : length("width", context.viewport.width),
-                 height = is_text ? 0 : length("height", context.viewport.height);
+    Box box;
+    if (is_text) {
+      box = extent_of_text(node, context.viewport);
+    } else {
+      const Viewport& whole = context.viewport;
+      const Complex corner(length("x", whole.width), length("y", whole.height));
+      box.include(corner);
+      box.include(corner + Complex(length("width", whole.width), length("height", whole.height)));
+    }
     for (const double u : {0.0, 0.5, 1.0})
       for (const double v : {0.0, 0.5, 1.0})
-        frames_.sample(within.frame, within.to_picture(Complex(x + u * width, y + v * height)));
+        frames_.sample(within.frame, within.to_picture(Complex(box.left + u * box.width(),
+                                                               box.bottom + v * box.height())));
     bend_clipping(node, copy, within);
-  }
-
-  /// Where a text starts: its parts may have positions of their own, for each letter.
-  static double first_place(const pugi::xml_node& text, const char* name, double whole) {
-    pugi::xml_node part = text;
-    while (part && !part.attribute(name)) part = part.first_child();
-    const std::string all = part.attribute(name).as_string();
-    return length_of(all.substr(0, all.find_first_of(" ,")), whole).value_or(0);
   }
 
   /// Gives an element copies of its clipping path and mask that are bent like the element.

@@ -92,6 +92,30 @@ void include_extent(Box& box, const pugi::xml_node& node, const Affine& map,
     include_extent(box, child, composed(map, transform_of(child)), viewport);
 }
 
+/// Includes the lines of a text. `pen` is where the next letter is drawn.
+void include_text(Box& box, const pugi::xml_node& node, Complex& pen, const Viewport& viewport) {
+  const auto first = [&](const char* name, double whole, double otherwise) {
+    const std::string all = node.attribute(name).as_string();
+    return length_of(all.substr(0, all.find_first_of(" ,")), whole).value_or(otherwise);
+  };
+  pen = {first("x", viewport.width, pen.real()), first("y", viewport.height, pen.imag())};
+  const double usual = 16, size = length_of(inherited_property(node, "font-size")).value_or(usual);
+  const std::string anchor = inherited_property(node, "text-anchor");
+  const double before = anchor == "middle" ? 0.5 : anchor == "end" ? 1 : 0;
+  for (const pugi::xml_node& child : node.children()) {
+    if (child.type() == pugi::node_element) include_text(box, child, pen, viewport);
+    if (child.type() != pugi::node_pcdata) continue;
+    const std::string_view letters = child.value();
+    const auto count = std::ranges::count_if(
+        letters, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });  // UTF-8
+    const double width = 0.5 * size * static_cast<double>(count);
+    const Complex start = pen - before * width;
+    box.include(start + Complex(0, 0.2 * size));
+    box.include(start + Complex(width, -0.8 * size));
+    pen += (1 - before) * width;
+  }
+}
+
 void set_attribute(pugi::xml_node node, const char* name, const std::string& value) {
   node.remove_attribute(name);
   node.append_attribute(name).set_value(value.c_str());
@@ -139,6 +163,14 @@ pugi::xml_document xml_of(const std::string& text, const std::string& name) {
 Box extent_of(const pugi::xml_node& node, const Viewport& viewport) {
   Box box;
   include_extent(box, node, {}, viewport);
+  return box;
+}
+
+Box extent_of_text(const pugi::xml_node& text, const Viewport& viewport) {
+  Box box;
+  Complex pen;
+  include_text(box, text, pen, viewport);
+  if (box.empty()) box.include(pen);
   return box;
 }
 

@@ -35,5 +35,8 @@ pugi::xml_document xml_of(const std::string& text, const std::string& name);
 /// The bounding box of the shapes and pictures in an element, in its own user units, y down:
 /// without its transform. Texts and copies (`use`) are left out. Empty if there are none.
 Box extent_of(const pugi::xml_node& node, const Viewport& viewport);
+/// About where a text is drawn, in its own user units, y down: letters are taken to be half as wide
+/// as they are high.
+Box extent_of_text(const pugi::xml_node& text, const Viewport& viewport);
 
 }  // namespace holomorph
