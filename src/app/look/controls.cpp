@@ -299,9 +299,12 @@ bool begin_section(const std::string& title, const std::string& state, ImU32 sta
   const std::string shown = plain_name(title);
   if (item.pressed) open = !open;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.PushClipRect({at.x - pad, at.y - 1}, {at.x + width + pad, at.y + height}, false);
-  list.AddLine({at.x - pad, at.y}, {at.x + width + pad, at.y}, faded(c.line));
-  list.PopClipRect();
+  // The line extends into the padding, but not above or below the panel.
+  if (at.y >= list.GetClipRectMin().y && at.y < list.GetClipRectMax().y) {
+    list.PushClipRect({at.x - pad, at.y - 1}, {at.x + width + pad, at.y + height}, false);
+    list.AddLine({at.x - pad, at.y}, {at.x + width + pad, at.y}, faded(c.line));
+    list.PopClipRect();
+  }
   const float middle = at.y + height / 2;
   draw_text(list, Type::strong, {at.x, middle - font(Type::strong)->FontSize / 2}, c.text, shown);
   draw_icon(list, open ? icon_named("down") : icon_named("right"), {at.x + width - px(8), middle},
