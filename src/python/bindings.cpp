@@ -195,7 +195,7 @@ class PythonScene {
   SampledMap map(const Points& points, std::optional<double> time) {
     const Turn turn(mutex_);
     TimedMap& map = timed();
-    return map.inside(map.frame(time), points, handle_interrupts);
+    return map.values_in_cage(map.frame(time), points, handle_interrupts);
   }
 
   std::vector<std::vector<Preimage>> preimages(const Points& points, std::optional<double> time) {

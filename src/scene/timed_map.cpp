@@ -2,6 +2,7 @@
 #include "scene/timed_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/cauchy/inside.h"
@@ -74,8 +75,8 @@ size_t TimedMap::block_size() const {
   return static_cast<size_t>(std::max(1.0, kBudgetFraction * budget().coordinates / controls));
 }
 
-SampledMap TimedMap::inside(const TimedFrame& frame, const Points& points,
-                            const std::function<void()>& keep_going) {
+SampledMap TimedMap::values_in_cage(const TimedFrame& frame, const Points& points,
+                                    const std::function<void()>& keep_going) {
   const size_t block = block_size();
   SampledMap all;
   for (VectorXc* part : {&all.f, &all.fz, &all.fzbar})
@@ -90,16 +91,18 @@ SampledMap TimedMap::inside(const TimedFrame& frame, const Points& points,
     std::ranges::replace_if(
         some, [](Complex z) { return !is_moderate(z); }, deformation_.rest.vertex(0));
     const SampledMap map = at(frame, some);
+    all.note = map.note;
+    all.status = map.status;
     constexpr size_t kTask = 1024;
     parallel_for(static_cast<int>((count + kTask - 1) / kTask), [&](int task) {
       const size_t from = static_cast<size_t>(task) * kTask;
       for (size_t i = from; i < std::min(from + kTask, count); ++i) {
         const Complex z = points[first + i], none(NAN, NAN);
-        const bool inside = is_moderate(z) && cage.contains(z);
+        const bool is_inside = is_moderate(z) && cage.contains(z);
         const auto k = static_cast<Index>(i), n = static_cast<Index>(first + i);
-        all.f[n] = inside ? map.f[k] : none;
-        all.fz[n] = inside ? map.fz[k] : none;
-        all.fzbar[n] = inside ? map.fzbar[k] : none;
+        all.f[n] = is_inside ? map.f[k] : none;
+        all.fz[n] = is_inside ? map.fz[k] : none;
+        all.fzbar[n] = is_inside ? map.fzbar[k] : none;
       }
     });
   }

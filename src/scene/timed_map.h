@@ -46,9 +46,9 @@ class TimedMap {
   SampledMap at(const TimedFrame& frame, const Points& points);
   /// The number of points that at() should take at once, because of the budget for coordinates.
   size_t block_size() const;
-  /// The same as at() for any number of points. Values are NaN outside the cage and at points that
-  /// are not finite. Calls `keep_going` from time to time, as fine() does.
-  SampledMap inside(
+  /// The map at any number of points, with derivatives. Values are NaN outside the cage and at
+  /// points that are not finite. Calls `keep_going` before each block of points, as fine() does.
+  SampledMap values_in_cage(
       const TimedFrame& frame, const Points& points,
       const std::function<void()>& keep_going = [] {});
 

@@ -1,5 +1,5 @@
-# Times Python against C++: a million new points through a cage of 32 edges, with derivatives. Arrays
-# of points are made before, and Python's time includes that of its results.
+# Times Python against C++: a million new points through a cage of 32 edges, with derivatives. The
+# arrays of points are made before the clock starts; the time includes making the arrays of results.
 import json
 import math
 import os

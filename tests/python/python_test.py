@@ -432,8 +432,10 @@ class Packaging(Folder):
         """In an environment that has the system's packages, from a build folder that exists already."""
         subprocess.run(["/usr/bin/python3", "-m", "venv", "--system-site-packages", self.path("env")], check=True)
         build = os.path.dirname(PACKAGE)
+        with open(os.path.join(build, "CMakeCache.txt")) as file:
+            before = next(line.split("=", 1)[1].strip() for line in file if line.startswith("PYTHON_EXECUTABLE:"))
         # The environment's Python is gone after the test.
-        self.addCleanup(subprocess.run, ["cmake", "-DPYTHON_EXECUTABLE=/usr/bin/python3", build], check=True, capture_output=True)
+        self.addCleanup(subprocess.run, ["cmake", "-DPYTHON_EXECUTABLE=" + before, build], check=True, capture_output=True)
         done = subprocess.run([self.path("env/bin/python"), "-m", "pip", "install", "--no-build-isolation", "--no-index", SOURCE],
                               env={**os.environ, "HOLOMORPH_BUILD": build}, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
