@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cli/moments.h"
+#include "scene/formats/image.h"
 #include "system/file.h"
 
 namespace holomorph {
@@ -76,6 +77,7 @@ struct ExportCommand : SceneCommand {
   Path out;
   std::string format;
   std::optional<double> scale = {};
+  std::optional<int> depth = {};  ///< as in RenderCommand
   bool crop = false;
   std::optional<int> overscan = {};     ///< of ST-maps, in their pixels
   bool half = false;                    ///< half floats in OpenEXR files
@@ -93,6 +95,9 @@ struct BenchCommand {
   Path against;  ///< earlier results; empty: none
   bool json = false;
 };
+
+/// The bits per color of a picture. Throws Error if the format does not have what is wanted.
+int checked_depth(const PictureFormat& format, const std::optional<int>& wanted);
 
 /// Throws Error if the file does not exist. If the path looks like a mistyped command, the message
 /// refers to --help.

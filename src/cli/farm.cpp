@@ -141,7 +141,7 @@ void check_farm(const FarmCommand& command) {
   for (const Path& path : {command.scene, command.out})
     if (is_standard(path))
       throw Error(ErrorKind::bad_input, "other machines need files; name them instead of -");
-  picture_format_of(command.out);
+  checked_depth(picture_format_of(command.out), command.depth);
   if (command.film && !export_format_named(film_format_of(*command.film).extension.substr(1)).film)
     throw Error(ErrorKind::bad_input,
                 command.film->string() + ": a film of pictures needs another format, such as .mp4");

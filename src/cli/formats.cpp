@@ -39,6 +39,7 @@ std::string text_of(FileContent content) {
 std::string options_of(const ExportFormat& format) {
   std::vector<std::string> options;
   if (format.scale) options.push_back("--scale");
+  if (format.id == "png") options.push_back("--depth");
   if (format.crop) options.insert(options.end(), {"--crop", "--rect"});
   if (format.time) options.push_back("--time");
   if (format.frames) options.push_back("--frames");
@@ -56,14 +57,12 @@ std::vector<std::string> written_to(const std::string& extension) {
     if (std::ranges::find(writes, text) == writes.end()) writes.push_back(text);
   };
   const std::string picture = "the picture";
-  const auto format = std::ranges::find(picture_formats(), extension, &PictureFormat::extension);
-  if (format != picture_formats().end()) add(picture);
+  const PictureFormat* format = picture_format_named(extension);
+  if (format) add(picture);
   for (const ExportFormat& each : export_formats())
     if (std::ranges::count(each.extensions, extension) > 0) add(each.writes);
-  if (format == picture_formats().end() || format->depths.size() < 2) return writes;
-  std::vector<std::string> depths;
-  for (const int depth : format->depths) depths.push_back(std::to_string(depth));
-  std::ranges::replace(writes, picture, picture + " (" + joined(depths, " or ") + " bits)");
+  if (format && format->depths.size() > 1)
+    std::ranges::replace(writes, picture, picture + " (" + depths_text(*format) + " bits)");
   return writes;
 }
 

@@ -266,6 +266,7 @@ void CommandLine::add_export(CLI::App& app) {
   sub->add_option(
       "--scale", exported.scale,
       "Output pixels per image pixel, by default 1; for png, ST-maps, unwarp, textured and films");
+  add_depth(sub, exported.depth);
   sub->add_option("--overscan", exported.overscan,
                   "Pixels beyond each side of the picture; for stmap and unwarp-map")
       ->check(CLI::Range(0, 8192));

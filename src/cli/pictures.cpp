@@ -36,18 +36,15 @@ std::string rectangle_option(int width, int height, Complex corner, double scale
                   height / scale);
 }
 
-/// The bits per color. Throws Error if the format does not have what is wanted.
-int checked_depth(const PictureFormat& format, const std::optional<int>& wanted) {
-  const int depth = depth_of(format, wanted);
-  if (!wanted || depth == *wanted) return depth;
-  std::string known;
-  for (const int each : format.depths)
-    known += (known.empty() ? "" : " or ") + std::to_string(each);
-  throw Error(ErrorKind::bad_input,
-              "--depth: " + format.extension + " has " + known + " bits per color");
+/// Reads the pictures again with all of their bits.
+void read_fine_pixels(LoadedScene& loaded) {
+  std::vector<std::string> losses;
+  loaded.pictures = loaded.pictures.fine(losses);
+  for (const std::string& loss : losses)
+    std::fprintf(stderr, "holomorph: %s\n", printable(loss).c_str());
 }
 
-void render_frames(const RenderCommand& command, const LoadedScene& loaded, PictureOptions options,
+void render_frames(const RenderCommand& command, LoadedScene& loaded, PictureOptions options,
                    const PictureFormat& format, int depth) {
   const Scene& scene = loaded.scene;
   const FrameRange range = frames_named(*command.moments.frames, scene);
@@ -57,6 +54,7 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded, Pict
   if (wanted.empty()) return;
   for (const int i : wanted)
     check_out(numbered(command.out, i), command.force, command.scene, loaded);
+  if (options.fine) read_fine_pixels(loaded);
   const DeferredStop tidy;
   std::string said, shared;
   {
@@ -64,7 +62,8 @@ void render_frames(const RenderCommand& command, const LoadedScene& loaded, Pict
     PictureMaker maker(scene, loaded.image(), loaded.pictures);
     if (!command.crop && !options.region)
       options.region = maker.motion_region([] { return !is_interrupted(); });
-    OrderedTasks<Path> files([](const Path&) {});
+    // Fine frames are large, so only few of them wait for being written.
+    OrderedTasks<Path> files([](const Path&) {}, options.fine ? 2 : 0);
     for (size_t k = 0; k < wanted.size(); ++k) {
       progress.step(k, wanted.size());
       const int i = wanted[k];
@@ -208,6 +207,8 @@ void check_options(const ExportCommand& command) {
     throw Error(ErrorKind::bad_input,
                 option + " cannot be used with " + command.format + ": " + why);
   };
+  if (command.depth && format.id != "png")
+    throw_unsupported("--depth", "only pictures have a choice of bits");
   if (command.scale && !format.scale) throw_unsupported("--scale", "it has no pixels");
   if (command.crop && !format.crop)
     throw_unsupported("--crop", "only pictures and films can be cropped");
@@ -237,6 +238,14 @@ void check_options(const ExportCommand& command) {
 
 }  // namespace
 
+int checked_depth(const PictureFormat& format, const std::optional<int>& wanted) {
+  const int depth = depth_of(format, wanted);
+  if (wanted && depth != *wanted)
+    throw Error(ErrorKind::bad_input,
+                "--depth: " + format.extension + " has " + depths_text(format) + " bits per color");
+  return depth;
+}
+
 void run(const RenderCommand& command) {
   LoadedScene loaded = read_scene(command);
   const Moments& moments = command.moments;
@@ -254,12 +263,12 @@ void run(const RenderCommand& command) {
   PictureOptions options;
   options.view = view_named(command.view);
   options.fine = needs_fine_pixels(depth);
-  if (options.fine) loaded.pictures = loaded.pictures.fine();
   options.scale = command.scale;
   options.crop = command.crop;
   options.region = command.rectangle;
   options.time = moments.time;
   if (moments.frames) return render_frames(command, loaded, options, format, depth);
+  if (options.fine) read_fine_pixels(loaded);
   RasterResult result;
   std::string bytes;
   {
@@ -283,7 +292,9 @@ void run(const ExportCommand& command) {
                              command.crop,
                              command.rectangle,
                              command.force,
-                             command.moments});
+                             command.moments,
+                             false,
+                             command.depth});
   LoadedScene loaded = read_scene(command);
   if (command.moments.any()) require_keyframes(loaded.scene, command.scene);
   if (command.moments.time) loaded.pictures.show_time(loaded.scene, *command.moments.time);

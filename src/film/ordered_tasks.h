@@ -9,15 +9,18 @@
 
 namespace holomorph {
 
-/// Runs tasks in parallel, at most one per processor core, and delivers their results in the order
+/// Runs tasks in parallel and delivers their results in the order
 /// in which the tasks were added. If a task throws, add() or finish() rethrows the exception.
 template <class Result>
 class OrderedTasks {
  public:
-  explicit OrderedTasks(std::function<void(Result)> take) : deliver_(std::move(take)) {}
+  /// Runs at most `most` tasks at once; 0: one per processor core.
+  explicit OrderedTasks(std::function<void(Result)> take, size_t most = 0)
+      : deliver_(std::move(take)),
+        most_(most > 0 ? most : std::max(1u, std::thread::hardware_concurrency())) {}
 
   void add(std::function<Result()> task) {
-    if (running_.size() >= std::max(1u, std::thread::hardware_concurrency())) deliver_first();
+    if (running_.size() >= most_) deliver_first();
     running_.push_back(std::async(std::launch::async, std::move(task)));
   }
   void finish() {
@@ -32,6 +35,7 @@ class OrderedTasks {
   }
 
   std::function<void(Result)> deliver_;
+  size_t most_;
   std::deque<std::future<Result>> running_;
 };
 

@@ -17,17 +17,19 @@ unsigned divided_by_255(unsigned x) {
   return (x + 127) / 255;
 }
 
-/// The color channel that a blending mode makes of the colors above and below, from 0 to 1.
+/// The color channel that a blending mode makes of the colors above and below. 1 is white; what is
+/// brighter stays at least as bright as the brighter of both.
 float blended(Blending mode, float over, float under) {
   switch (mode) {
     case Blending::multiply:
       return over * under;
     case Blending::screen:
-      return over + under - over * under;
+      return over > 1 || under > 1 ? std::max(over, under) : over + under - over * under;
     case Blending::overlay:
+      if (under > 1) return under;
       return under < 0.5f ? 2 * over * under : 1 - 2 * (1 - over) * (1 - under);
     case Blending::add:
-      return std::min(1.0f, over + under);
+      return std::max({std::min(1.0f, over + under), over, under});
     case Blending::normal:
       break;
   }
@@ -81,7 +83,7 @@ PixelRange filled_range(const Image& image) {
   PixelRange range{image.width, image.height, 0, 0};
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c)
-      if (image.at(c, r)[3] > 0)
+      if (is_filled(image, c, r))
         range = {std::min(range.left, c), std::min(range.top, r), std::max(range.right, c + 1),
                  std::max(range.bottom, r + 1)};
   return range;

@@ -1,6 +1,8 @@
 // Draws a scene layer by layer, for files with layers.
 #pragma once
 
+#include <functional>
+
 #include "raster/picture.h"
 #include "scene/formats/layered.h"
 

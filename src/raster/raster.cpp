@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "raster/drawing.h"
+#include "scene/budget.h"
 
 namespace holomorph {
 namespace {
@@ -18,12 +19,12 @@ struct PixelRect {
 void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   const auto row_empty = [&](int r) {
     for (int c = 0; c < image.width; ++c)
-      if (image.at(c, r)[3]) return false;
+      if (is_filled(image, c, r)) return false;
     return true;
   };
   const auto column_empty = [&](int c) {
     for (int r = 0; r < image.height; ++r)
-      if (image.at(c, r)[3]) return false;
+      if (is_filled(image, c, r)) return false;
     return true;
   };
   int top = 0, bottom = image.height, left = 0, right = image.width;
@@ -151,6 +152,9 @@ RasterResult rasterized(const RasterJob& job) {
     throw Error(ErrorKind::bad_input, "there is nothing to draw: no picture and no cage");
   PixelRect frame{static_cast<int>(left), static_cast<int>(top), static_cast<int>(right - left),
                   static_cast<int>(bottom - top)};
+  if (job.fine)
+    check_budget(&Budget::pixels, kFineCopies * frame.width * frame.height,
+                 "drawing a picture with more than 8 bits takes the memory of");
   Image image =
       drawn(job, frame.left / scale, top_edge - frame.top / scale, frame.width, frame.height);
   if (!job.crop && !job.region) trim(image, frame, least);

@@ -304,7 +304,7 @@ void extend(StMap& map) {
 }
 
 FloatImage float_image_of(StMap map) {
-  FloatImage image{map.width, map.height, map.overscan, {}};
+  FloatImage image{{map.width, map.height, map.overscan}, {}};
   image.pixels.reserve(4 * map.coverage.size());
   for (size_t i = 0; i < map.coverage.size(); ++i)
     image.pixels.insert(image.pixels.end(),

@@ -68,8 +68,8 @@ class Document {
     pictures_.put(reference, std::move(picture));
   }
   /// Makes a frame of a layer's film the picture of this layer.
-  void show_frame(const Layer& layer, std::shared_ptr<const Image> frame) {
-    pictures_.show_frame(layer, std::move(frame));
+  void show_frame(const Layer& layer, int number, std::shared_ptr<const Image> frame) {
+    pictures_.show_frame(layer, number, std::move(frame));
   }
   /// Updates the clips of layers to the films that are stored. This is not a step of the history.
   void describe_films();

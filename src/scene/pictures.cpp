@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t kHashedBytes = size_t{16} << 20;  ///< of a film
+constexpr size_t kHashedBytes = size_t{16} << 20;  // of a film
+constexpr size_t kSignature = 8;                   // bytes by which formats are recognized
 
 bool is_film(const std::string& file) {
   return is_named_as(file, FileContent::film);
@@ -91,14 +92,16 @@ std::shared_ptr<const Image> Pictures::shared(const Layer& layer) const {
   return footage && footage == frame->second.footage.lock() ? frame->second.image : still(layer);
 }
 
-void Pictures::show_frame(const Layer& layer, std::shared_ptr<const Image> frame) {
-  frames_[layer.id] = {footage(layer), std::move(frame)};
+void Pictures::show_frame(const Layer& layer, int number, std::shared_ptr<const Image> frame) {
+  frames_[layer.id] = {footage(layer), number, std::move(frame)};
 }
 
 void Pictures::show_time(const Scene& scene, double time) {
   for (const SharedLayer& layer : scene.layers)
-    if (const auto footage = this->footage(*layer))
-      show_frame(*layer, footage->frame(clip_frame_at(*clip_of(*layer), time)));
+    if (const auto footage = this->footage(*layer)) {
+      const int number = clip_frame_at(*clip_of(*layer), time);
+      show_frame(*layer, number, footage->frame(number));
+    }
 }
 
 const Image* Pictures::of(const Layer& layer) const {
@@ -118,22 +121,41 @@ void Pictures::put(const ImageReference& reference, Picture picture) {
   all_[source_of(reference)] = std::move(picture);
 }
 
-Pictures Pictures::fine() const {
-  Pictures result = *this;
-  PixelBudget pixels;
-  for (auto& [source, picture] : result.all_) {
-    if (source.moves && !is_film(source.file)) {
-      picture.footage =
-          std::make_shared<Footage>(open_numbered_pictures(source.file, PixelDepth::full));
-      continue;
-    }
-    if (source.moves || !source.entry.empty() || !path_exists(source.file)) continue;
-    const std::string bytes = read_file(source.file);
-    if (!(is_png(bytes) || is_exr(bytes)) || sha256_hex(bytes) != picture.sha256) continue;
+/// A picture with fine pixels if its file has some. Throws Error if they cannot be read.
+Picture Pictures::fine_picture(const Source& source, Picture picture, PixelBudget& pixels) {
+  const bool is_deep = has_fine_pixels(read_start(source.file, kSignature));
+  if (!is_deep || !source.entry.empty()) return picture;
+  const std::string bytes = read_file(source.file);
+  if (sha256_hex(bytes) != picture.sha256)
+    throw Error(ErrorKind::bad_input, source.file + ": the file has changed");
+  if (source.moves) {
+    picture.footage =
+        std::make_shared<Footage>(open_numbered_pictures(source.file, PixelDepth::full));
+    picture.image = picture.footage->frame(0);
+  } else {
     picture.image =
         std::make_shared<const Image>(decode_image(bytes, source.file, pixels, PixelDepth::full));
   }
-  result.frames_.clear();
+  return picture;
+}
+
+Pictures Pictures::fine(std::vector<std::string>& losses,
+                        const std::function<void()>& keep_going) const {
+  Pictures result = *this;
+  PixelBudget pixels;
+  for (auto& [source, picture] : result.all_) {
+    keep_going();
+    if (is_film(source.file)) continue;
+    const std::shared_ptr<Footage> before = picture.footage;
+    try {
+      picture = fine_picture(source, picture, pixels);
+      for (auto& [layer, shown] : result.frames_)
+        if (before && shown.footage.lock() == before)
+          shown = {picture.footage, shown.number, picture.footage->frame(shown.number)};
+    } catch (const Error& error) {
+      losses.push_back(std::string(error.what()) + "; it has 8 bits");
+    }
+  }
   return result;
 }
 

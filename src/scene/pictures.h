@@ -67,8 +67,8 @@ class Pictures {
   std::shared_ptr<Footage> footage(const Layer& layer) const;
   /// The text of a layer's SVG file; null if its picture is not a drawing.
   std::shared_ptr<const std::string> drawing(const Layer& layer) const;
-  /// Makes a frame of a layer's film the picture of this layer.
-  void show_frame(const Layer& layer, std::shared_ptr<const Image> frame);
+  /// Makes the frame with this number of a layer's film the picture of this layer.
+  void show_frame(const Layer& layer, int number, std::shared_ptr<const Image> frame);
   /// Does so for all films of a scene, with their frames at a time. Throws Error.
   void show_time(const Scene& scene, double time);
   const Picture* find(const ImageReference& reference) const;
@@ -77,9 +77,12 @@ class Pictures {
   void withhold(const std::string& file) { withheld_.insert(file); }
   const std::set<std::string>& withheld() const { return withheld_; }
   void release() { withheld_.clear(); }
-  /// The same pictures with the fine pixels that their files have. Those whose files have changed
-  /// stay as they are. Cost: reads the files again. Throws Error.
-  Pictures fine() const;
+  /// The same pictures with the fine pixels that their files have. Where that is not possible,
+  /// because a file has changed or is too large, a picture stays as it is, and `losses` gets a
+  /// message. Calls `keep_going` before each picture; an exception from it ends the work. Cost:
+  /// reads the files again.
+  Pictures fine(
+      std::vector<std::string>& losses, const std::function<void()>& keep_going = [] {}) const;
   /// Adds the pictures and the withheld files of another collection.
   void add(const Pictures& others);
   /// The total number of pixels in all pictures.
@@ -99,10 +102,12 @@ class Pictures {
   /// The frames of films, by the id of the layer that shows them.
   struct ShownFrame {
     std::weak_ptr<Footage> footage;  ///< to which the frame belongs
+    int number = 0;
     std::shared_ptr<const Image> image;
   };
   std::map<int, ShownFrame> frames_;
   std::set<std::string> withheld_;
+  static Picture fine_picture(const Source& source, Picture picture, PixelBudget& pixels);
 };
 
 }  // namespace holomorph

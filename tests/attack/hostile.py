@@ -154,6 +154,10 @@ class Round:
     def options(self):
         for scale in ("1e6", "1e308", "nan", "-1", "1e-300", "inf", "0"):
             self.scene(f"--scale {scale}", ("render", "--scale", scale, "--out", "o.png"))
+        wide = [[[x, y]] for x, y in ((0, 0), (16000, 0), (16000, 16000), (0, 16000))]
+        for out in (("--out", "o.exr"), ("--depth", "16", "--out", "o.png")):
+            self.scene(f"a picture of 16000 x 16000 pixels with {out}", ("render", *out), refused=True,
+                       cage={"rest": SQUARE, "pose": wide})
         for out in ("/dev/full", "n" * 300 + ".png", "p.png/x.png", "one.png"):
             self.scene(f"--out {out[:20]}", ("render", "--out", out))
 

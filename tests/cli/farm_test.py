@@ -200,6 +200,7 @@ class Farm(Case):
         here = ["farm", self.scene, "--engine", "slurm", "--out", self.frames]
         self.bad("farm", self.scene, "--engine", "deadline", "--out", self.frames, says="the engine is slurm")
         self.bad(*here, "--frames", "0..500", says="frames")
+        self.bad(*here, "--depth", "12", says="has 8 or 16 bits")
         self.bad(*here, "--film", self.path("f.xyz"), says="f.xyz")
         self.bad(*here, "--film", self.path("f.png"), says="needs another format")
         self.bad(*here, "--scale", "1000000", says="pixels")

@@ -35,8 +35,8 @@ WIDE = ((0.708, 0.292), (0.170, 0.797), (0.131, 0.046))  # Rec. 2020
 WIDE_TO_SRGB = numpy.linalg.solve(to_xyz(WHITE, (0.64, 0.33), (0.30, 0.60), (0.15, 0.06)), to_xyz(WHITE, *WIDE))
 
 
-def png16(samples, gamma=None, chromaticities=None):
-    """A PNG file of 16-bit samples: height x width x channels."""
+def png16(samples, gamma=None, chromaticities=None, orientation=None):
+    """A PNG file of 16-bit samples: height x width x channels. The orientation is that of Exif."""
     def chunk(name, content):
         return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
     height, width, channels = samples.shape
@@ -46,6 +46,8 @@ def png16(samples, gamma=None, chromaticities=None):
         file += chunk(b"gAMA", struct.pack(">I", round(gamma * 100000)))
     if chromaticities:
         file += chunk(b"cHRM", struct.pack(">8I", *(round(x * 100000) for x in chromaticities)))
+    if orientation:
+        file += chunk(b"eXIf", b"MM\0*" + struct.pack(">IHHHIHHI", 8, 1, 0x112, 3, 1, orientation, 0, 0))
     return file + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
 
 
@@ -264,9 +266,69 @@ class DeepPictures(Case):
         image = {"file": "film-0.exr", "clip": {"frames_per_second": 4}}
         scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": image, "cage": {"rest": []},
                                           "animation": {"frames_per_second": 4}})
+        self.good("render", scene, "--out", self.path("still.exr"))
+        self.assertLess(numpy.abs(self.floats("still.exr")[0, 0] / [3, 0.001, 0.5, 1] - 1).max(), 1e-3)
         self.good("render", scene, "--frames", "all", "--out", self.path("out.exr"))
         for i in range(3):
             self.assertLess(numpy.abs(self.floats(f"out-{i:04}.exr")[0, 0] / [3 + i, 0.001 * (i + 1), 0.5, 1] - 1).max(), 1e-3)
+
+    def test_fine_pixels_go_wherever_those_of_8_bits_go(self):
+        """Turned, trimmed, faded and put on a color: 16 bits are those of 8 bits before they are rounded."""
+        colors = self.rng.integers(0, 65536, (30, 40, 4))
+        with open(self.path("turned.png"), "wb") as file:
+            file.write(png16(colors, orientation=6))
+        self.good("render", self.scene_of("turned.png"), "--depth", "16", "--out", self.path("out.png"))
+        self.assertLess(numpy.abs(self.floats("out.png") * 65535 - numpy.rot90(colors, -1)).max(), 0.01)
+        colors[..., 3] = 65535
+        colors[:6, :6, 3] = 0
+        with open(self.path("in.png"), "wb") as file:
+            file.write(png16(colors))
+        rest = [[5, 5], [35, 5], [35, 25], [5, 25]]
+        cage = {"rest": [[p] for p in rest], "pose": [[[x - 20, y + 8]] for x, y in rest]}
+        layer = {"id": 1, "name": "one", "image": {"file": "in.png"}, "cage": cage, "method": {"id": "cage"}}
+        for more, background in (({}, {}), ({"opacity": 0.4}, {}), ({"opacity": 0.4}, {"background": "#204060"})):
+            scene = self.write("moved.json", {"format": "holomorph", "version": 2, "layers": [{**layer, **more}], **background})
+            self.good("render", scene, "--depth", "16", "--out", self.path("out.png"), "--force")
+            self.good("render", scene, "--out", self.path("eight.png"), "--force")
+            fine = 255 * self.floats("out.png")
+            eight = numpy.asarray(Image.open(self.path("eight.png")).convert("RGBA")).astype(float)
+            self.assertEqual(fine.shape, eight.shape)
+            self.assertGreater(fine.shape[1], 40)
+            seen = eight[..., 3:] > 0
+            self.assertLessEqual(numpy.abs(fine - eight)[..., 3].max(), 1.01)
+            self.assertLessEqual((numpy.abs(fine - eight) * seen).max(), 1.5, (more, background))
+            self.assertGreater(numpy.abs(fine - eight)[..., :3].max(), 0.2)
+
+    def test_bright_layers_stay_bright(self):
+        for name, value in (("below.exr", 3), ("above.exr", 10)):
+            self.write_exr(name, numpy.full((6, 8, 4), [value, 0.5, 2, 1]))
+        for blending in ("screen", "overlay", "add", "multiply"):
+            layers = [{"id": i + 1, "name": name, "image": {"file": name}, "cage": {"rest": []}, "blending": blend}
+                      for i, (name, blend) in enumerate((("below.exr", "normal"), ("above.exr", blending)))]
+            scene = self.write("layers.json", {"format": "holomorph", "version": 2, "layers": layers})
+            self.good("render", scene, "--out", self.path("out.exr"), "--force")
+            red = self.floats("out.exr")[0, 0, 0]
+            self.assertTrue(2.99 < red < 100, (blending, red))
+
+    def test_nearly_transparent_and_endless_colors_become_numbers(self):
+        pixels = numpy.full((4, 6, 4), [1e4, 1, 0, 1.0])
+        pixels[0, :, 3] = 10.0 ** self.rng.integers(-40, -1, 6)
+        pixels[1, 0] = [numpy.nan, numpy.inf, -numpy.inf, numpy.nan]
+        self.write_exr("odd.exr", pixels)
+        for name in ("out.exr", "out.png"):
+            self.good("render", self.scene_of("odd.exr"), "--depth", "16", "--out", self.path(name))
+            self.assertTrue(numpy.isfinite(self.floats(name)).all())
+
+    def test_pictures_that_are_too_large_have_8_bits(self):
+        colors = self.rng.integers(0, 65536, (300, 400, 4))
+        with open(self.path("in.png"), "wb") as file:
+            file.write(png16(colors))
+        done = self.good("render", self.scene_of("in.png"), "--depth", "16", "--max-pixels", "0.7", "--out", self.path("out.png"))
+        self.assertIn("--max-pixels", done.stderr)
+        self.assertIn("it has 8 bits", done.stderr)
+        self.assertLessEqual(numpy.abs(self.floats("out.png") * 65535 - colors).max(), 0.51 * 257)
+        self.bad("render", self.scene_of("in.png"), "--depth", "16", "--scale", "3", "--max-pixels", "0.7",
+                 "--out", self.path("large.png"), says="--max-pixels")
 
     def test_depths_that_a_format_does_not_have(self):
         self.random_picture()

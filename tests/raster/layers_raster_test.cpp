@@ -376,7 +376,7 @@ TEST_CASE("The layers of a posed scene make its picture") {
   CHECK(layered.layers[1].name == "upper");
 }
 
-TEST_CASE("Work on layers ends as soon as it may not go on, also while a drawing is bent") {
+TEST_CASE("Drawing layers stops when keep_going throws, even while a drawing is being bent") {
   TwoLayers two;
   std::string circles;
   for (int i = 0; i < 30; ++i)

@@ -10,9 +10,11 @@
 
 #include "core/error.h"
 #include "scene/clips.h"
+#include "scene/formats/image_formats.h"
 #include "scene/formats/numbered_frames.h"
 #include "scene/formats/scene_json.h"
 #include "scene/keyframes.h"
+#include "scene/pictures.h"
 #include "support/folder.h"
 #include "support/seeds.h"
 #include "system/new_file.h"
@@ -256,6 +258,34 @@ TEST_CASE("Numbered pictures are found from any of them") {
   write_file(folder.path / "alone7.png", "x");
   CHECK_FALSE(has_numbered_neighbor(folder.path / "alone7.png"));
   CHECK(numbered_pictures(folder.path / "missing1.png").empty());
+}
+
+TEST_CASE("With fine pixels, a film shows the same frame") {
+  const Folder folder;
+  for (int i = 0; i < 4; ++i) {
+    Image frame(3, 2);
+    frame.fine.assign(frame.pixels.size(), 10.25f * static_cast<float>(i + 1));
+    round_fine(frame);
+    write_file(folder.path / ("f" + std::to_string(i) + ".png"), encode_png_16(frame));
+  }
+  Layer layer;
+  layer.image = reference_in(folder.path / "f0.png");
+  layer.image->clip.emplace();
+  Pictures pictures;
+  pictures.put(*layer.image, read_picture(*layer.image));
+  pictures.show_frame(layer, 2, pictures.footage(layer)->frame(2));
+  std::vector<std::string> losses;
+  const Pictures fine = pictures.fine(losses);
+  CHECK(losses.empty());
+  REQUIRE(!fine.of(layer)->fine.empty());
+  CHECK(std::abs(fine.of(layer)->fine[0] - 30.75f) < 1 / 257.0);
+  CHECK(std::abs(fine.still(layer)->fine[0] - 10.25f) < 1 / 257.0);
+  CHECK(fine.of(layer)->pixels[0] == 31);
+  CHECK(pictures.of(layer)->fine.empty());
+  // A file that has changed keeps the pixels that were read.
+  write_file(folder.path / "f0.png", encode_png_16(Image(3, 2)));
+  CHECK(pictures.fine(losses).of(layer)->fine.empty());
+  CHECK(losses.size() == 1);
 }
 
 TEST_CASE("Several threads may ask for frames") {

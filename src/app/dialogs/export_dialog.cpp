@@ -61,8 +61,12 @@ void ExportDialog::ask(std::optional<ExportKind> asked, const Path& folder) {
   const ExportKind kind = asked.value_or(last_ && last_moved_ == moves ? last_->kind : usual);
   const bool keeps_sound =
       has_sound(document.scene(), document.pictures()) && has_program("ffmpeg");
-  const auto extension_of = [&](ExportKind kind) {
-    return kind != ExportKind::film ? ".png" : keeps_sound ? ".mp4" : ".webp";
+  // What opens as a drawing or with bright colors stays that.
+  const std::string source_kind = format_extension(document.first_picture());
+  const bool is_kept = source_kind == ".svg" || source_kind == ".exr";
+  const auto extension_of = [&](ExportKind kind) -> std::string {
+    if (kind == ExportKind::film) return keeps_sound ? ".mp4" : ".webp";
+    return is_kept ? source_kind : ".png";
   };
   folder_ = folder;
   if (last_) {
@@ -361,11 +365,8 @@ void ExportDialog::draw_scale() {
 
 /// The bits per color, if there is a choice.
 void ExportDialog::draw_depth() {
-  const auto format = std::ranges::find(picture_formats(), format_extension(settings_.path),
-                                        &PictureFormat::extension);
-  if (settings_.kind != ExportKind::picture || format == picture_formats().end() ||
-      format->depths.size() < 2)
-    return;
+  const PictureFormat* format = picture_format_named(format_extension(settings_.path));
+  if (settings_.kind != ExportKind::picture || !format || format->depths.size() < 2) return;
   const int depth = depth_of(*format, settings_.depth);
   const auto text = [](int bits) { return std::to_string(bits) + " bits per color"; };
   row_label("Depth");
@@ -484,7 +485,7 @@ ExportEstimate::Question ExportDialog::question() const {
   return {.scene = std::move(scene),
           .options = options,
           .extension = format_extension(settings_.path),
-          .depth = settings_.depth,
+          .depth = film ? std::nullopt : settings_.depth,
           .film = film,
           .first = settings_.first,
           .frames = film ? frames() : 1};

@@ -68,10 +68,8 @@ std::optional<double> estimate(const ExportEstimate::Question& question, const P
                                           ->encode(layered_picture_of(
                                               scene, pictures.of(scene.layer()), options, pictures))
                                           .size());
-  const bool is_still = std::ranges::any_of(picture_formats(), [&](const PictureFormat& format) {
-    return format.extension == question.extension;
-  });
-  const PictureFormat& format = picture_format_of(is_still ? "a" + question.extension : "a.webp");
+  const PictureFormat* still = picture_format_named(question.extension);
+  const PictureFormat& format = still ? *still : picture_format_of("a.webp");
   const int depth = depth_of(format, question.depth);
   options.fine = needs_fine_pixels(depth);
   const Image small = maker.picture(options).image;

@@ -23,6 +23,20 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " \u00d7 " + std::to_string(height) + " px";
 }
 
+/// Ends the work if it was canceled.
+void keep_going(const Job::Progress& progress) {
+  if (progress.cancelled()) throw Canceled{};
+}
+
+/// What is said at the end of the export of a picture.
+std::string exported_message(const ExportWork& work, const Image& image,
+                             const std::vector<std::string>& losses) {
+  std::string message =
+      "Exported " + name_of(work) + ", " + size_text(image.width, image.height) + ".";
+  for (const std::string& loss : losses) message += " " + loss + ".";
+  return message;
+}
+
 std::string exported_film(const ExportWork& work, Job::Progress& progress) {
   const ExportSettings& settings = work.settings;
   const FilmOptions film{work.options, settings.first, settings.last, settings.loops,
@@ -35,33 +49,34 @@ std::string exported_film(const ExportWork& work, Job::Progress& progress) {
   return "Exported " + name_of(work) + ", " + std::to_string(written->frames) + " frames.";
 }
 
-std::string exported_picture(const ExportWork& work, Job::Progress& progress) {
-  const LayeredFormat* layered = layered_format_of(work.settings.path);
-  LayeredPicture picture;
-  std::string bytes;
-  if (layered) {
-    picture = layered_picture_of(work.scene, work.pictures.of(work.scene.layer()), work.options,
-                                 work.pictures, layered->keeps_drawings, [&] {
-                                   if (progress.cancelled()) throw Canceled{};
-                                 });
-    bytes = layered->encode(picture);
-  } else {
-    const PictureFormat& format = picture_format_of(work.settings.path);
-    const int depth = depth_of(format, work.settings.depth);
-    PictureOptions options = work.options;
-    options.fine = needs_fine_pixels(depth);
-    const Pictures pictures = options.fine ? work.pictures.fine() : work.pictures;
-    picture.merged =
-        picture_of(work.scene, pictures.of(work.scene.layer()), options, pictures).image;
-    if (progress.cancelled()) return "";
-    bytes = format.encode(picture.merged, depth);
-  }
-  if (progress.cancelled()) return "";
+std::string exported_layers(const ExportWork& work, const LayeredFormat& format,
+                            Job::Progress& progress) {
+  const LayeredPicture picture =
+      layered_picture_of(work.scene, work.pictures.of(work.scene.layer()), work.options,
+                         work.pictures, format.keeps_drawings, [&] { keep_going(progress); });
+  const std::string bytes = format.encode(picture);
+  keep_going(progress);
   write_file(work.settings.path, bytes);
-  std::string message = "Exported " + name_of(work) + ", " +
-                        size_text(picture.merged.width, picture.merged.height) + ".";
-  for (const std::string& loss : picture.losses) message += " " + loss + ".";
-  return message;
+  return exported_message(work, picture.merged, picture.losses);
+}
+
+std::string exported_picture(const ExportWork& work, Job::Progress& progress) {
+  if (const LayeredFormat* layered = layered_format_of(work.settings.path))
+    return exported_layers(work, *layered, progress);
+  const PictureFormat& format = picture_format_of(work.settings.path);
+  const int depth = depth_of(format, work.settings.depth);
+  PictureOptions options = work.options;
+  options.fine = needs_fine_pixels(depth);
+  std::vector<std::string> losses;
+  const Pictures pictures =
+      options.fine ? work.pictures.fine(losses, [&] { keep_going(progress); }) : work.pictures;
+  const Image image =
+      picture_of(work.scene, pictures.of(work.scene.layer()), options, pictures).image;
+  keep_going(progress);
+  const std::string bytes = format.encode(image, depth);
+  keep_going(progress);
+  write_file(work.settings.path, bytes);
+  return exported_message(work, image, losses);
 }
 
 std::string exported_meshes(const ExportWork& work, Job::Progress& progress) {

@@ -34,28 +34,27 @@ class StringStream : public Imf::OStream {
   size_t at_ = 0;
 };
 
-std::vector<half> halves_of(const std::vector<float>& numbers) {
-  constexpr float kMost = 65504;  // the largest half float
-  std::vector<half> halves;
-  halves.reserve(numbers.size());
-  for (const float number : numbers) halves.emplace_back(std::clamp(number, -kMost, kMost));
-  return halves;
+void to_halves(const std::vector<float>& numbers, std::vector<half>& halves) {
+  static constexpr float kMost = 65504;  // the largest half float
+  std::ranges::transform(numbers, halves.begin(),
+                         [](float number) { return half(std::clamp(number, -kMost, kMost)); });
 }
 
 }  // namespace
 
-std::string exr_of(const FloatImage& image, FloatBits bits) {
+std::string exr_of(const FloatShape& shape, FloatBits bits,
+                   const std::function<void(int row, float* out)>& write_row) {
   using Imath::Box2i;
-  const int over = image.overscan;
-  const Box2i display({0, 0}, {image.width - 2 * over - 1, image.height - 2 * over - 1}),
-      data({-over, -over}, {image.width - over - 1, image.height - over - 1});
+  const int over = shape.overscan;
+  const Box2i display({0, 0}, {shape.width - 2 * over - 1, shape.height - 2 * over - 1}),
+      data({-over, -over}, {shape.width - over - 1, shape.height - over - 1});
   try {
     const bool is_half = bits == FloatBits::half;
-    const std::vector<half> halves = is_half ? halves_of(image.pixels) : std::vector<half>();
-    const size_t size = is_half ? sizeof(half) : sizeof(float),
-                 columns = static_cast<size_t>(image.width);
-    const char* first = is_half ? reinterpret_cast<const char*>(halves.data())
-                                : reinterpret_cast<const char*>(image.pixels.data());
+    std::vector<float> row(4 * static_cast<size_t>(shape.width));
+    std::vector<half> halves(is_half ? row.size() : 0);
+    const size_t size = is_half ? sizeof(half) : sizeof(float);
+    char* first =
+        is_half ? reinterpret_cast<char*>(halves.data()) : reinterpret_cast<char*>(row.data());
     const Imf::PixelType type = is_half ? Imf::HALF : Imf::FLOAT;
     Imf::Header header(display, data);
     header.compression() = Imf::ZIP_COMPRESSION;
@@ -63,15 +62,19 @@ std::string exr_of(const FloatImage& image, FloatBits bits) {
     for (size_t k = 0; k < 4; ++k) {
       const std::string name(1, "RGBA"[k]);
       header.channels().insert(name, Imf::Channel(type));
-      // OpenEXR only reads from the buffer.
-      buffer.insert(name, Imf::Slice::Make(type, const_cast<char*>(first) + k * size, data,
-                                           4 * size, 4 * size * columns));
+      // All rows are read from the same memory, one after the other.
+      char* base = first + k * size + static_cast<std::ptrdiff_t>(4 * size) * over;
+      buffer.insert(name, Imf::Slice(type, base, 4 * size, 0));
     }
     StringStream stream;
     {
       Imf::OutputFile file(stream, header);
       file.setFrameBuffer(buffer);
-      file.writePixels(image.height);
+      for (int r = 0; r < shape.height; ++r) {
+        write_row(r, row.data());
+        if (is_half) to_halves(row, halves);
+        file.writePixels(1);
+      }
     }
     return stream.take();
   } catch (const std::bad_alloc&) {
@@ -79,6 +82,14 @@ std::string exr_of(const FloatImage& image, FloatBits bits) {
   } catch (const std::exception& error) {
     throw Error(ErrorKind::failed, std::string("OpenEXR: ") + error.what());
   }
+}
+
+std::string exr_of(const FloatImage& image, FloatBits bits) {
+  const size_t row = 4 * static_cast<size_t>(image.width);
+  return exr_of(image, bits, [&](int r, float* out) {
+    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(row * static_cast<size_t>(r)),
+                row, out);
+  });
 }
 
 }  // namespace holomorph

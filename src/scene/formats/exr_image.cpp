@@ -18,7 +18,6 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "scene/budget.h"
 #include "scene/formats/exr.h"
 #include "scene/formats/image_formats.h"
 
@@ -204,21 +203,21 @@ Image read_display(Rows& rows, const std::string& name, PixelBudget& pixels, Pix
   const auto side = [](int low, int high) {
     return static_cast<size_t>(std::max<std::int64_t>(std::int64_t{high} - low + 1, 0));
   };
-  pixels.take(side(shown.min.x, shown.max.x), side(shown.min.y, shown.max.y), name);
+  const bool keeps_fine = depth == PixelDepth::full;
+  pixels.take(side(shown.min.x, shown.max.x), side(shown.min.y, shown.max.y), name,
+              keeps_fine ? kFineCopies : 1);
   Image image(shown.max.x - shown.min.x + 1, shown.max.y - shown.min.y + 1);
-  constexpr double kFineCopies = 5;  // of 8 bits; very large pictures are rounded at once
-  const bool keeps_fine =
-      depth == PixelDepth::full && kFineCopies * image.width * image.height <= budget().pixels;
   if (keeps_fine) image.fine.resize(image.pixels.size());
   const bool is_srgb = !Imf::hasChromaticities(rows.header());
   const Imath::M33f matrix =
       is_srgb ? Imath::M33f() : to_linear_srgb(Imf::chromaticities(rows.header()));
+  constexpr float kFaintest = 1e-8f, kBrightest = 1e12f;  // so that quotients are finite
   const int left = std::max(shown.min.x, stored.min.x), right = std::min(shown.max.x, stored.max.x);
   for (int y = std::max(shown.min.y, stored.min.y); y <= std::min(shown.max.y, stored.max.y); ++y) {
     const std::vector<Sample>& row = rows.row(y);
     for (int x = left; x <= right; ++x) {
       const Sample& sample = row[static_cast<size_t>(x - stored.min.x)];
-      const float alpha = sample.a > 0 ? std::min(sample.a, 1.0f) : 0;
+      const float alpha = sample.a > kFaintest ? std::min(sample.a, 1.0f) : 0;
       if (alpha == 0) continue;
       Imath::V3f color(finite(sample.r), finite(sample.g), finite(sample.b));
       color /= alpha;
@@ -228,7 +227,7 @@ Image read_display(Rows& rows, const std::string& name, PixelBudget& pixels, Pix
       out[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
       if (!keeps_fine) continue;
       float* fine = &image.fine[image.index(x - shown.min.x, y - shown.min.y)];
-      for (int k = 0; k < 3; ++k) fine[k] = 255 * srgb_of(color[k]);
+      for (int k = 0; k < 3; ++k) fine[k] = 255 * srgb_of(std::min(color[k], kBrightest));
       fine[3] = 255 * alpha;
     }
   }
@@ -265,17 +264,19 @@ Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget&
 }
 
 std::string encode_exr(const Image& image, int depth) {
-  FloatImage linear{image.width, image.height, 0, std::vector<float>(image.pixels.size())};
-  for (size_t i = 0; i < linear.pixels.size(); i += 4) {
-    const auto from = [&](size_t k) {
-      return (image.fine.empty() ? static_cast<float>(image.pixels[i + k]) : image.fine[i + k]) /
-             255;
-    };
-    const float alpha = from(3);
-    for (size_t k = 0; k < 3; ++k) linear.pixels[i + k] = alpha * linear_of(from(k));
-    linear.pixels[i + 3] = alpha;
-  }
-  return exr_of(linear, depth == 32 ? FloatBits::single : FloatBits::half);
+  const auto write_row = [&](int row, float* out) {
+    for (int column = 0; column < image.width; ++column, out += 4) {
+      const size_t i = image.index(column, row);
+      const auto from = [&](size_t k) {
+        return (image.fine.empty() ? static_cast<float>(image.pixels[i + k]) : image.fine[i + k]) /
+               255;
+      };
+      out[3] = from(3);
+      for (size_t k = 0; k < 3; ++k) out[k] = out[3] * linear_of(from(k));
+    }
+  };
+  return exr_of({image.width, image.height}, depth == 32 ? FloatBits::single : FloatBits::half,
+                write_row);
 }
 
 }  // namespace holomorph

@@ -47,6 +47,7 @@ Image upright(Image image, int orientation) {
   if (orientation <= 1 || orientation > 8) return image;
   const bool turned = orientation >= 5;
   Image result(turned ? image.height : image.width, turned ? image.width : image.height);
+  result.fine.resize(image.fine.size());
   const int w = image.width - 1, h = image.height - 1;
   for (int r = 0; r < result.height; ++r)
     for (int c = 0; c < result.width; ++c) {
@@ -59,16 +60,17 @@ Image upright(Image image, int orientation) {
                                  : orientation == 7 ? std::pair(w - r, h - c)
                                                     : std::pair(w - r, c);
       std::memcpy(result.at(c, r), image.at(column, row), 4);
-      if (image.fine.empty()) continue;
-      result.fine.resize(image.fine.size());
-      std::copy_n(&image.fine[image.index(column, row)], 4, &result.fine[result.index(c, r)]);
+      if (!image.fine.empty())
+        std::copy_n(&image.fine[image.index(column, row)], 4, &result.fine[result.index(c, r)]);
     }
   return result;
 }
 
 void round_fine(Image& image) {
   for (size_t i = 0; i < image.fine.size(); ++i)
-    image.pixels[i] = static_cast<std::uint8_t>(std::clamp(image.fine[i] + 0.5f, 0.0f, 255.0f));
+    image.pixels[i] = image.fine[i] > 0  // also for NaN
+                          ? static_cast<std::uint8_t>(std::min(image.fine[i] + 0.5f, 255.0f))
+                          : 0;
 }
 
 Image cut_out(const Image& image, int left, int top, int width, int height) {
@@ -98,6 +100,10 @@ Image decode_image(const std::string& bytes, const std::string& name, PixelBudge
               name +
                   ": not a picture in a supported format (PNG, JPEG, WebP, TIFF, OpenRaster, "
                   "OpenEXR, SVG, BMP, TGA, GIF or PSD)");
+}
+
+bool has_fine_pixels(const std::string& start) {
+  return is_png(start) || is_exr(start);
 }
 
 namespace {
@@ -158,6 +164,18 @@ const std::vector<PictureFormat>& picture_formats() {
   return all;
 }
 
+const PictureFormat* picture_format_named(const std::string& extension) {
+  const auto found = std::ranges::find(picture_formats(), extension, &PictureFormat::extension);
+  return found == picture_formats().end() ? nullptr : &*found;
+}
+
+std::string depths_text(const PictureFormat& format) {
+  std::string text;
+  for (const int depth : format.depths)
+    text += (text.empty() ? "" : " or ") + std::to_string(depth);
+  return text;
+}
+
 int depth_of(const PictureFormat& format, const std::optional<int>& wanted) {
   const bool has_it = wanted && std::ranges::count(format.depths, *wanted) > 0;
   return has_it ? *wanted : format.depths[0];
@@ -170,9 +188,8 @@ std::string format_extension(const Path& file) {
 
 const PictureFormat& picture_format_of(const Path& file) {
   const std::string extension = format_extension(file);
-  const auto found = std::ranges::find(picture_formats(), extension.empty() ? ".png" : extension,
-                                       &PictureFormat::extension);
-  if (found == picture_formats().end())
+  const PictureFormat* found = picture_format_named(extension.empty() ? ".png" : extension);
+  if (!found)
     throw Error(ErrorKind::bad_input,
                 file.string() + ": pictures are written as .png, .jpg, .webp or .exr");
   return *found;

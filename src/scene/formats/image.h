@@ -33,13 +33,20 @@ struct Image {
   std::uint8_t* at(int column, int row) { return &pixels[index(column, row)]; }
 };
 
-/// Rounds the fine pixels, which the picture must have, to those of 8 bits.
+/// Sets the 8-bit pixels to the rounded fine pixels, if the picture has some.
 void round_fine(Image& image);
+/// Whether a pixel is not fully transparent.
+inline bool is_filled(const Image& image, int column, int row) {
+  const size_t alpha = image.index(column, row) + 3;
+  return image.fine.empty() ? image.pixels[alpha] > 0 : image.fine[alpha] > 0;
+}
 /// A part of a picture, in whole pixels.
 Image cut_out(const Image& image, int left, int top, int width, int height);
 
 /// What is read of pictures with more than 8 bits.
 enum class PixelDepth { eight_bits, full };
+/// The memory of a picture with fine pixels, in pictures of 8 bits.
+inline constexpr double kFineCopies = 5;
 
 /// The number of pixels that may still be decoded for the pictures of a scene.
 class PixelBudget {
@@ -65,6 +72,8 @@ inline Image decode_image(const std::string& bytes, const std::string& name) {
   PixelBudget alone;
   return decode_image(bytes, name, alone);
 }
+/// Whether a file that starts with these bytes may have more than 8 bits that can be read.
+bool has_fine_pixels(const std::string& start);
 
 /// Whether no pixel is transparent, not even partly.
 bool is_opaque(const Image& image);
@@ -81,6 +90,10 @@ struct PictureFormat {
 /// PNG, JPEG, WebP and OpenEXR. JPEG has no transparency; transparent areas become white. WebP is
 /// lossless for all visible pixels. OpenEXR is linear and premultiplied.
 const std::vector<PictureFormat>& picture_formats();
+/// The format of an extension in normal form; null if there is none.
+const PictureFormat* picture_format_named(const std::string& extension);
+/// Such as "8 or 16".
+std::string depths_text(const PictureFormat& format);
 /// The wanted depth if the format has it; otherwise the usual one.
 int depth_of(const PictureFormat& format, const std::optional<int>& wanted);
 /// Whether colors with this number of bits need fine pixels.

@@ -9,7 +9,7 @@
 namespace holomorph {
 
 /// Opens pictures whose names end with successive numbers, beginning with this one. Throws
-/// Error{bad_input} if its name does not end with a number.
+/// Error{bad_input} if its name does not end with a number. `depth` is that of decode_image().
 std::unique_ptr<FrameReader> open_numbered_pictures(const Path& first,
                                                     PixelDepth depth = PixelDepth::eight_bits);
 /// The files of these pictures: this one, and those with the numbers after it up to the first gap.

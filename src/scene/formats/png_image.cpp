@@ -1,5 +1,5 @@
-// Reads PNG files from memory with libpng. Any bit depth is converted to 8 bits, after colors are
-// converted to sRGB. The result is upright. Also writes those of 16 bits.
+// Reads PNG files from memory with libpng: upright, and converted to sRGB before colors are rounded
+// to 8 bits. Fine pixels are kept on demand. Writes PNG files with 16 bits.
 #include <png.h>
 
 #include <algorithm>
@@ -54,22 +54,25 @@ class PngReader {
   }
 
  private:
-  /// Very large pictures are rounded first, because there is no memory for both.
+  /// Without fine pixels, very large pictures are rounded first, because there is no memory for
+  /// both.
   void take_pixels(PixelBudget& pixels) {
-    // Two bytes instead of one, and the result, whose fine pixels have four.
-    const double copies = keeps_fine_ ? 7 : 3;
-    is_deep_ = depth_ == 16 && (keeps_fine_ || profile_size_ > 0 || gamma_ > 0) &&
-               copies * width_ * height_ <= budget().pixels;
-    pixels.take(width_, height_, name_);
+    constexpr double kSamples = 2;  // copies; samples have two bytes instead of one
+    keeps_fine_ = keeps_fine_ && depth_ == 16;
+    is_deep_ = keeps_fine_ || (depth_ == 16 && (profile_size_ > 0 || gamma_ > 0) &&
+                               (kSamples + 1) * width_ * height_ <= budget().pixels);
+    pixels.take(width_, height_, name_, keeps_fine_ ? kSamples + kFineCopies : 1);
   }
 
   void convert() {
     const std::string profile(reinterpret_cast<const char*>(profile_), profile_size_);
-    if (is_deep_) {
+    if (keeps_fine_) {
+      image_ = Image(deep_.width, deep_.height);
+      image_.fine = profile_size_ > 0 ? fine_in_srgb(deep_, profile)
+                                      : fine_in_srgb(deep_, primaries_, gamma_);
+      round_fine(image_);
+    } else if (is_deep_) {
       image_ = profile_size_ > 0 ? in_srgb(deep_, profile) : in_srgb(deep_, primaries_, gamma_);
-      if (keeps_fine_)
-        image_.fine = profile_size_ > 0 ? fine_in_srgb(deep_, profile)
-                                        : fine_in_srgb(deep_, primaries_, gamma_);
     } else if (profile_size_ > 0) {
       to_srgb(image_, profile);
     } else if (gamma_ > 0) {
@@ -171,7 +174,7 @@ class PngReader {
   std::vector<png_bytep> rows_;
 };
 
-/// Like PngReader, for longjmp.
+/// Functions that longjmp can interrupt have no local objects with destructors, as in PngReader.
 class PngWriter {
  public:
   explicit PngWriter(const Image& image)
@@ -215,7 +218,8 @@ class PngWriter {
   std::uint16_t sample(size_t i) const {
     constexpr float kStep = 257;  // 16-bit steps per 8-bit step
     if (image_.fine.empty()) return static_cast<std::uint16_t>(257 * image_.pixels[i]);
-    return static_cast<std::uint16_t>(std::clamp(kStep * image_.fine[i] + 0.5f, 0.0f, 65535.0f));
+    const float exact = kStep * image_.fine[i];
+    return exact > 0 ? static_cast<std::uint16_t>(std::min(exact + 0.5f, 65535.0f)) : 0;
   }
 
   const Image& image_;

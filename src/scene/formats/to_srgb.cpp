@@ -106,7 +106,7 @@ float fine_channel(float color) {
   return color > 0 ? 255 * std::min(color, kBrightest) : 0;  // also for NaN
 }
 
-/// Floating-point conversions use no tables, so they are exact but slow.
+/// Floating-point conversions use no precomputed tables, so they are exact but slow.
 std::vector<float> fine_converted(const DeepImage& deep, const Profile& profile) {
   std::vector<float> fine = fine_samples(deep);
   const Conversion narrow = conversion(profile, TYPE_RGBA_8),
@@ -133,11 +133,13 @@ std::vector<float> fine_converted_gray(const DeepImage& deep, const Profile& pro
   std::vector<float> fine = fine_samples(deep);
   const Conversion gray = conversion(profile, TYPE_GRAY_FLT, TYPE_RGB_FLT, 0);
   if (!gray) return fine;
-  for (size_t i = 0; i < fine.size(); i += 4) {
-    const float light = static_cast<float>(deep.pixels[i]) / kWhole;
-    cmsDoTransform(gray.get(), &light, &fine[i], 1);
-    for (size_t k = 0; k < 3; ++k) fine[i + k] = fine_channel(fine[i + k]);
-  }
+  std::vector<float> grays(1 << 16), colors(3 * grays.size());
+  for (size_t i = 0; i < grays.size(); ++i) grays[i] = static_cast<float>(i) / kWhole;
+  cmsDoTransform(gray.get(), grays.data(), colors.data(),
+                 static_cast<cmsUInt32Number>(grays.size()));
+  for (size_t i = 0; i < fine.size(); i += 4)
+    for (size_t k = 0; k < 3; ++k)
+      fine[i + k] = fine_channel(colors[3 * static_cast<size_t>(deep.pixels[i]) + k]);
   return fine;
 }
 

@@ -21,7 +21,8 @@ struct DeepImage {
 };
 /// The same picture in sRGB with 8 bits. Dark linear colors keep steps that 8 bits would lose.
 Image in_srgb(const DeepImage& image, const std::string& profile);
-/// Its fine pixels in sRGB. Cost: several times that of in_srgb().
+/// Its fine pixels in sRGB. A profile that differs from sRGB by at most one 8-bit step is ignored.
+/// Cost: several times that of in_srgb().
 std::vector<float> fine_in_srgb(const DeepImage& image, const std::string& profile);
 
 /// Converts 8-bit CMYK, in which 255 means no ink, to opaque RGBA. Uses the profile only if it is a
