@@ -687,7 +687,7 @@ class EditorWindowTest(WindowCase):
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(target)
-            for _ in range(3):  # format, scale, region
+            for _ in range(4):  # format, depth, scale, region
                 editor.key("Down")
             for key in ("Return", "Down", "Return"):  # the second choice: the picture's rectangle
                 editor.key(key)
