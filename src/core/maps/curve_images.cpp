@@ -3,15 +3,14 @@
 #include "core/maps/curve_images.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
-
-#include "core/geometry/curve.h"
 
 namespace holomorph {
 namespace {
 
 constexpr size_t kFewestParts = 8, kMostParts = 256;  // of a piece
-constexpr size_t kMostAtOnce = size_t{1} << 22;       // at once
+constexpr size_t kMostAtOnce = size_t{1} << 20;       // samples of long pieces
 constexpr double kSpacing = 100;                      // of samples, in tolerances
 constexpr int kMostSplits = 20;
 
@@ -32,11 +31,16 @@ struct CurvePiece {
   }
 };
 
+/// De Casteljau's algorithm. The last line is the tangent.
 CurveSample sample_of(const Points& curve, double t) {
-  Points differences;
-  for (size_t k = 0; k + 1 < curve.size(); ++k)
-    differences.push_back(static_cast<double>(curve.size() - 1) * (curve[k + 1] - curve[k]));
-  return {bezier_point(curve, t), bezier_point(differences, t)};
+  constexpr size_t kMostPoints = 4;
+  std::array<Complex, kMostPoints> points{};
+  std::ranges::copy(curve, points.begin());
+  const size_t degree = curve.size() - 1;
+  for (size_t level = degree; level > 1; --level)
+    for (size_t k = 0; k < level; ++k) points[k] += t * (points[k + 1] - points[k]);
+  const Complex line = points[1] - points[0];
+  return {points[0] + t * line, static_cast<double>(degree) * line};
 }
 
 /// The images of many points of curves.
@@ -134,7 +138,7 @@ std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
   const std::vector<CurveSample> ends = samples.answers();
   for (size_t c = 0; c < curves.size(); ++c)
     open.push_back({c, 0, 1, ends[2 * c], ends[2 * c + 1]});
-  size_t samples_left = kMostAtOnce + 32 * curves.size();
+  size_t samples_left = kMostAtOnce + 40 * curves.size();
   for (int halvings = 0; !open.empty(); ++halvings) {
     const std::vector<size_t> counts = ask_inside(samples, curves, open, kSpacing * tolerance);
     const size_t asked = std::reduce(counts.begin(), counts.end());

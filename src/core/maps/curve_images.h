@@ -16,7 +16,7 @@ namespace holomorph {
 /// every 100 tolerances of its length at rest, but no more than 255. If the map is affine, a curve
 /// has a single cubic, which is exact. Pieces are halved up to 20 times; where the map jumps, the
 /// shortest pieces bridge the gap. `map` is called for many curves at once, about as often as the
-/// pieces are halved. Cost: the samples of each piece that is tried, at most 2^22 and 32 for each
+/// pieces are halved. Cost: the samples of each piece that is tried, at most 2^20 and 40 for each
 /// curve. When these are used up, the remaining pieces of all curves are kept as they are.
 std::vector<std::vector<Points>> curve_images(const std::vector<Points>& curves,
                                               const PointValues& map, double tolerance);

@@ -145,7 +145,7 @@ TEST_CASE("Images that no cubics come close to have bounded cost") {
   };
   const std::vector<Points> curves{{0, 1e8}, {{0, 3}, {0, 9}}};
   const auto images = curve_images(curves, map, kTolerance);
-  CHECK(asked < (size_t{1} << 22) + 200);
+  CHECK(asked < (size_t{1} << 20) + 200);
   CHECK(images[0].back().back() == map(Points{1e8})[0].f);
   CHECK(images[1].size() == 1);
 }
