@@ -580,7 +580,7 @@ class EditorWindowTest(WindowCase):
         with Editor(PROGRAM, [scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 5, "the scene")
             editor.move(150, 5)
-            editor.xdotool("keydown", "q")
+            editor.xdotool("keydown", "q", pause=0.8)  # keys are not waited for, and machines may be busy
             editor.xdotool("click", 1)
             editor.xdotool("keyup", "q")
             editor.wait(lambda s: s["cage_points"] == 4, "a deleted point")
