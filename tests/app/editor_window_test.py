@@ -401,7 +401,7 @@ class EditorWindowTest(WindowCase):
             def scale():
                 """Where time 0 is on the ruler, and the pixels of a second. Both change when the animation gets longer."""
                 times = []
-                editor.xdotool("keydown", "Alt_L")
+                editor.xdotool("keydown", "Alt_L", pause=0.8)
                 for at in (x - 300, x + 300):
                     editor.press(at, y)
                     times.append(editor.state()["time"])
