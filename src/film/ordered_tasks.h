@@ -9,8 +9,8 @@
 
 namespace holomorph {
 
-/// Runs tasks in parallel and delivers their results in the order
-/// in which the tasks were added. If a task throws, add() or finish() rethrows the exception.
+/// Runs tasks in parallel and delivers their results in the order in which the tasks were added. If
+/// a task throws, add() or finish() rethrows the exception.
 template <class Result>
 class OrderedTasks {
  public:

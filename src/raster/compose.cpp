@@ -17,8 +17,8 @@ unsigned divided_by_255(unsigned x) {
   return (x + 127) / 255;
 }
 
-/// The color channel that a blending mode makes of the colors above and below. 1 is white; what is
-/// brighter stays at least as bright as the brighter of both.
+/// The color channel that a blending mode makes of the colors above and below. 1 is white. Up to
+/// there, the formulas are those of W3C; they continue without jumps for what is brighter.
 float blended(Blending mode, float over, float under) {
   switch (mode) {
     case Blending::multiply:

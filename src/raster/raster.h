@@ -55,7 +55,8 @@ struct RasterResult {
 /// per pixel where the map shrinks. The edges of the cage's image are antialiased by 4 x 4 coverage
 /// samples. Triangles are drawn in mesh order, later ones on top. The identity map reproduces the
 /// source bit for bit. Fine pixels are computed by portable code. Throws Error{bad_input} if the
-/// result would be empty or have more than 16384 pixels on a side. Cost with AVX2: about 20 ns per
+/// result would be empty or have more than 16384 pixels on a side, or if fine pixels would exceed
+/// the budget for pixels. Cost with AVX2: about 20 ns per
 /// pixel of the cage's image on one core.
 RasterResult rasterized(const RasterJob& job);
 

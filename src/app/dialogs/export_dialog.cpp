@@ -61,7 +61,7 @@ void ExportDialog::ask(std::optional<ExportKind> asked, const Path& folder) {
   const ExportKind kind = asked.value_or(last_ && last_moved_ == moves ? last_->kind : usual);
   const bool keeps_sound =
       has_sound(document.scene(), document.pictures()) && has_program("ffmpeg");
-  // What opens as a drawing or with bright colors stays that.
+  // Drawings stay drawings, and OpenEXR pictures keep their bright colors.
   const std::string source_kind = format_extension(document.first_picture());
   const bool is_kept = source_kind == ".svg" || source_kind == ".exr";
   const auto extension_of = [&](ExportKind kind) -> std::string {

@@ -64,8 +64,8 @@ class PixelBudget {
 
 /// Decodes PNG, JPEG, WebP, TIFF, OpenRaster, OpenEXR, SVG, GIF, BMP, TGA and PSD. The result is
 /// upright and in sRGB. `name` is used in messages. Throws Error{bad_input} if the bytes are not a
-/// picture, or if the picture is damaged, truncated or too large. With PixelDepth::full, PNG files
-/// of 16 bits and OpenEXR files have fine pixels.
+/// picture, or if the picture is damaged, truncated or too large. With PixelDepth::full, the result
+/// has fine pixels if the file is a PNG file with 16 bits or an OpenEXR file.
 Image decode_image(const std::string& bytes, const std::string& name, PixelBudget& pixels,
                    PixelDepth depth = PixelDepth::eight_bits);
 inline Image decode_image(const std::string& bytes, const std::string& name) {
