@@ -192,11 +192,7 @@ class EditorWindowTest(WindowCase):
             editor.key("Escape")
             scene = os.path.join(self.work, "bent.json")
             self.save_as(editor, scene)
-            self.ask(editor, "ctrl+e")
-            editor.press_item("Format")
-            time.sleep(0.5)
-            self.screenshot(editor, "drawing-formats")
-            editor.press_item("Drawing with layers (SVG)")
+            self.ask(editor, "ctrl+e")  # an SVG file is proposed
             out = os.path.join(self.work, "bent-bent.svg")
             time.sleep(0.5)
             self.screenshot(editor, "drawing-export")
@@ -413,15 +409,31 @@ class EditorWindowTest(WindowCase):
                 zero, second = scale()
                 editor.press(round(zero + second * time), y)
 
-            def drag(start, end):
+            def drag(start, end, height=row):
                 zero, second = scale()
-                editor.xdotool("mousemove", round(zero + second * start), row)
+                editor.xdotool("mousemove", round(zero + second * start), height)
                 editor.xdotool("mousedown", 1)
                 for k in (1, 2, 3):
-                    editor.xdotool("mousemove", round(zero + second * (start + (end - start) * k / 3)), row)
+                    editor.xdotool("mousemove", round(zero + second * (start + (end - start) * k / 3)), height)
                 editor.xdotool("mouseup", 1)
 
-            first_step = editor.state()["step"]
+            # Under a keyframe, the left end is dragged at the bar's upper edge.
+            go_to(0)
+            unbent = editor.state()["step"]
+            editor.click(150, 150)
+            editor.wait(lambda s: s["pins"] == 1, "a pin")
+            editor.key("i")
+            keyed = editor.wait(lambda s: s["keys"] == 1, "a keyframe at the film's start")["step"]
+            drag(0, 1, row - 9)
+            go_to(1)
+            self.wait_color(editor, (150, 100), colors[4], "the frame that was there before")
+            go_to(0)
+            self.wait_color(editor, (150, 100), colors[4], "the first frame that is left")
+            editor.key("ctrl+z")
+            editor.wait(lambda s: s["step"] == keyed and s["keys"] == 1, "the whole film again")
+            while editor.state()["step"] > unbent:
+                editor.key("ctrl+z")
+            first_step = editor.wait(lambda s: s["keys"] == s["pins"] == 0, "neither a keyframe nor a pin")["step"]
             drag(6, 4)  # the right end
             drag(2, 3)
             go_to(0)
