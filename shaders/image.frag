@@ -1,7 +1,8 @@
-// Colors the warped picture: the texture, a heat map or a checker. Premultiplied alpha.
+// Colors the warped picture: the texture, a heat map or a checker. Premultiplied alpha. Each program
+// defines one COLORING, 0: picture, 1: heat, 2: checker, 3: one color, 4: tinted picture, 5: page,
+// 6: shadow. Software drivers would compute all branches of a condition at each pixel.
 uniform sampler2D picture;
 uniform sampler1D colors;
-uniform int coloring;  // 0: picture, 1: heat, 2: checker, 3: one color, 4: tinted picture, 5: page, 6: shadow
 uniform vec4 flat_color;
 uniform vec4 other_color;    // the second color of the page
 uniform float cell_size;     // of the page's checkerboard, in plane units
@@ -20,30 +21,30 @@ float smooth_step(float x) {
 }
 
 void main() {
-  if (coloring == 0) {
-    color = texture(picture, uv);
-  } else if (coloring == 1) {
-    color = vec4(texture(colors, clamp(shade, 0.0, 1.0)).rgb, 1.0);
-  } else if (coloring == 2) {
-    // A box-filtered checker: exact where cells are large, gray where they are smaller than a pixel.
-    vec2 cell = rest_position / 16.0;
-    vec2 width = max(fwidth(cell), vec2(1e-6));
-    vec2 wave = 2.0 * (abs(fract((cell - 0.5 * width) * 0.5) - 0.5) - abs(fract((cell + 0.5 * width) * 0.5) - 0.5)) / width;
-    float light = 0.5 - 0.5 * wave.x * wave.y;
-    color = vec4(mix(vec3(0.275, 0.353, 0.471), vec3(0.922), light), 1.0);
-  } else if (coloring == 4) {
-    vec4 here = texture(picture, uv);
-    color = flat_color.a * vec4(mix(here.rgb, here.a * flat_color.rgb, 0.5), here.a);
-  } else if (coloring == 5) {
-    vec2 cell = floor(rest_position / cell_size);
-    color = mod(cell.x + cell.y, 2.0) < 0.5 ? flat_color : other_color;
-  } else if (coloring == 6) {
-    // A box blurred by a Gaussian, shifted down by half the softness.
-    vec2 at = rest_position + vec2(0.0, 0.5 * softness);
-    vec2 low = at / softness, high = (picture_size - at) / softness;
-    float covered = smooth_step(low.x) * smooth_step(high.x) * smooth_step(low.y) * smooth_step(high.y);
-    color = vec4(0.0, 0.0, 0.0, flat_color.a * covered);
-  } else {
-    color = flat_color;
-  }
+#if COLORING == 0
+  color = texture(picture, uv);
+#elif COLORING == 1
+  color = vec4(texture(colors, clamp(shade, 0.0, 1.0)).rgb, 1.0);
+#elif COLORING == 2
+  // A box-filtered checker: exact where cells are large, gray where they are smaller than a pixel.
+  vec2 cell = rest_position / 16.0;
+  vec2 width = max(fwidth(cell), vec2(1e-6));
+  vec2 wave = 2.0 * (abs(fract((cell - 0.5 * width) * 0.5) - 0.5) - abs(fract((cell + 0.5 * width) * 0.5) - 0.5)) / width;
+  float light = 0.5 - 0.5 * wave.x * wave.y;
+  color = vec4(mix(vec3(0.275, 0.353, 0.471), vec3(0.922), light), 1.0);
+#elif COLORING == 4
+  vec4 here = texture(picture, uv);
+  color = flat_color.a * vec4(mix(here.rgb, here.a * flat_color.rgb, 0.5), here.a);
+#elif COLORING == 5
+  vec2 cell = floor(rest_position / cell_size);
+  color = mod(cell.x + cell.y, 2.0) < 0.5 ? flat_color : other_color;
+#elif COLORING == 6
+  // A box blurred by a Gaussian, shifted down by half the softness.
+  vec2 at = rest_position + vec2(0.0, 0.5 * softness);
+  vec2 low = at / softness, high = (picture_size - at) / softness;
+  float covered = smooth_step(low.x) * smooth_step(high.x) * smooth_step(low.y) * smooth_step(high.y);
+  color = vec4(0.0, 0.0, 0.0, flat_color.a * covered);
+#else
+  color = flat_color;
+#endif
 }

@@ -54,8 +54,8 @@ int Program::at(const char* uniform) const {
   return glGetUniformLocation(id_, uniform);
 }
 
-Program warp_program() {
-  return {kWarpVert, kImageFrag, "warped"};
+Program warp_program(int coloring) {
+  return {kWarpVert, "#define COLORING " + std::to_string(coloring) + "\n" + kImageFrag, "warped"};
 }
 Program surface_program() {
   return {kSurfaceVert, kSurfaceFrag};

@@ -23,9 +23,9 @@ class Program {
   unsigned id_ = 0;
 };
 
-/// The programs, built from the files in shaders/. They draw a map of the plane, a surface in
-/// space, and layers over one another.
-Program warp_program();
+/// The programs, built from the files in shaders/. They draw a map of the plane in one of the
+/// colorings of shaders/image.frag, a surface in space, and layers over one another.
+Program warp_program(int coloring);
 Program surface_program();
 Program composite_program();
 

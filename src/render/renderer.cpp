@@ -2,6 +2,8 @@
 // context and changes it.
 #include "render/renderer.h"
 
+#include <array>
+
 #include "core/error.h"
 #include "render/gl.h"
 #include "render/program.h"
@@ -36,6 +38,7 @@ int mode_of(Placement placement) {
 
 /// The numbers match the fragment shader.
 enum class Coloring { picture, heat, checker, flat, ghost, page, shadow };
+constexpr size_t kColorings = 7;
 
 void clear_canvas(const RenderFrame& frame) {
   const int left = static_cast<int>(frame.canvas_left),
@@ -72,8 +75,10 @@ void finish(const RenderFrame& frame) {
 }  // namespace
 
 struct Renderer::Objects {
-  Program shaders = warp_program();
-  GLuint program = shaders.id();
+  /// A program for each coloring, compiled at its first use.
+  std::array<std::unique_ptr<const Program>, kColorings> programs;
+  const Program* program = nullptr;  ///< in use
+  std::array<float, 9> to_clip{};    ///< from the plane, by columns
   GLuint vertex_array = 0, quad_array = 0, ghost_array = 0, fringe_array = 0;
   GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0,
          feedback = 0, ghost = 0, fringe_rest = 0, fringe_position = 0, fringe_triangles = 0;
@@ -85,21 +90,11 @@ struct Renderer::Objects {
   int level = 0, row = 0;                       ///< progress of the upload
   int columns = 0;
 
-  GLint at(const char* name) const { return shaders.at(name); }
+  GLint at(const char* name) const { return program->at(name); }
 
-  /// Activates the program and its textures. `to_clip` is stored by columns.
-  void use(const float (&to_clip)[9], bool is_diverging) const {
-    glUseProgram(program);
-    glUniform1f(at("margin"), 0);
-    glUniformMatrix3fv(at("to_clip"), 1, GL_FALSE, to_clip);
-    glUniform2f(at("picture_size"), static_cast<float>(std::max(width, 1.0)),
-                static_cast<float>(std::max(height, 1.0)));
-    glUniform1i(at("picture"), kPicture);
-    glUniform1i(at("colors"), kColors);
-    glUniform1i(at("operator_matrix"), kMatrix);
-    glUniform1i(at("operator_controls"), kControls);
-    glUniform1i(at("column_count"), columns);
-    glUniform1i(at("row_count"), vertex_count);
+  /// Activates the textures, for all colorings until the next call.
+  void use(const std::array<float, 9>& placed, bool is_diverging) {
+    to_clip = placed;
     const auto bind = [](int unit, GLenum target, GLuint texture) {
       glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
       glBindTexture(target, texture);
@@ -109,8 +104,23 @@ struct Renderer::Objects {
     bind(kColors, GL_TEXTURE_1D, is_diverging ? diverging : sequential);
     bind(kPicture, GL_TEXTURE_2D, picture);
   }
-  void color(Coloring coloring, const Color& flat = {}, float alpha = 1) const {
-    glUniform1i(at("coloring"), static_cast<int>(coloring));
+  /// Activates the program of a coloring.
+  void color(Coloring coloring, const Color& flat = {}, float alpha = 1) {
+    const auto number = static_cast<size_t>(coloring);
+    if (!programs[number])
+      programs[number].reset(new Program(warp_program(static_cast<int>(coloring))));
+    program = programs[number].get();
+    glUseProgram(program->id());
+    glUniform1f(at("margin"), 0);
+    glUniformMatrix3fv(at("to_clip"), 1, GL_FALSE, to_clip.data());
+    glUniform2f(at("picture_size"), static_cast<float>(std::max(width, 1.0)),
+                static_cast<float>(std::max(height, 1.0)));
+    glUniform1i(at("picture"), kPicture);
+    glUniform1i(at("colors"), kColors);
+    glUniform1i(at("operator_matrix"), kMatrix);
+    glUniform1i(at("operator_controls"), kControls);
+    glUniform1i(at("column_count"), columns);
+    glUniform1i(at("row_count"), vertex_count);
     glUniform4f(at("flat_color"), flat[0], flat[1], flat[2], alpha);
   }
   /// Draws the mesh in the coloring that was set by color().
@@ -120,7 +130,7 @@ struct Renderer::Objects {
     glBindVertexArray(vertex_array);
     glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
   }
-  void draw_ghosts(const std::vector<Ghost>& ghosts) const {
+  void draw_ghosts(const std::vector<Ghost>& ghosts) {
     constexpr float kStrength = 0.4f;
     for (const Ghost& each : ghosts) {
       check(static_cast<GLsizei>(each.positions.size()) == vertex_count,
@@ -141,14 +151,13 @@ struct Renderer::Objects {
   }
 
   /// Draws the checkerboard behind the picture, and a soft shadow around it.
-  void draw_page(const RenderFrame& frame) const {
+  void draw_page(const RenderFrame& frame) {
     if (frame.shadow > 0) {
       const double softness = frame.shadow / frame.zoom;
+      color(Coloring::shadow, {}, frame.shadow_alpha);
       glUniform1f(at("softness"), static_cast<float>(softness));
       glUniform1f(at("margin"), static_cast<float>(4 * softness));
-      color(Coloring::shadow, {}, frame.shadow_alpha);
       draw_quad();
-      glUniform1f(at("margin"), 0);
     }
     color(Coloring::page, frame.backdrop);
     const Color& other = frame.other_backdrop;
@@ -157,7 +166,7 @@ struct Renderer::Objects {
     draw_quad();
   }
   /// Draws the picture outside the rest cage.
-  void draw_surroundings(Placement placement) const {
+  void draw_surroundings(Placement placement) {
     if (index_count > 0 && fringe_index_count > 0) {
       color(Coloring::picture);
       glUniform1i(at("mode"),
@@ -430,7 +439,7 @@ void Renderer::set_controls(const VectorXc& controls) {
 }
 
 void Renderer::draw(const RenderFrame& frame) {
-  const Objects& gl = *gl_;
+  Objects& gl = *gl_;
   clear_canvas(frame);
   const double sx = 2 * frame.zoom / std::floor(frame.canvas_width),
                sy = 2 * frame.zoom / std::floor(frame.canvas_height);
@@ -475,6 +484,7 @@ std::vector<Complex> Renderer::placed_vertices(Placement placement) {
   Objects& gl = *gl_;
   std::vector<float> flat(2 * static_cast<size_t>(gl.vertex_count));
   gl.use({1, 0, 0, 0, 1, 0, 0, 0, 1}, false);
+  gl.color(Coloring::flat);
   glUniform1i(gl.at("mode"), mode_of(placement));
   upload(gl.feedback, GL_TRANSFORM_FEEDBACK_BUFFER, nullptr, flat.size() * sizeof(float),
          GL_STREAM_READ);
