@@ -162,8 +162,8 @@ class Marks:
                 + ([f"color: tinted by {tint.round(2)}"] if (abs(tint) > 0.5 + 5 * error).any() else []))
 
     def checker_complaints(self, pixels, corner, scale):
-        """Pixels inside a cell have its color."""
-        row, column = numpy.nonzero((shifted(pixels[..., 3], 1) == 255).all(axis=0))
+        """Pixels inside a cell have its color. Looks at every seventh pixel, because inverses take long."""
+        row, column = (index[::7] for index in numpy.nonzero((shifted(pixels[..., 3], 1) == 255).all(axis=0)))
         centers = corner + (column + 0.5 + 1j * (len(pixels) - row - 0.5)) / scale
         answer = self.ask("inverse", centers)
         z, once = answer[:, 0] + 1j * answer[:, 1], answer[:, 3] == 1

@@ -386,20 +386,29 @@ TEST_CASE("Drawing layers stops when keep_going throws, even while a drawing is 
   two.pictures.put(reference("red"),
                    {std::make_shared<const Image>(filled(60, 40, kRed)), "", {}, {}, drawing});
   change_layer(two.scene, [](Layer& layer) { layer.visible = false; });
+  bool stopped = false;
   const auto calls_until = [&](int most) {
     struct Stopped {};
     int calls = 0;
+    stopped = false;
     try {
       layered_picture_of(two.scene, &two.blue, {}, two.pictures, true, [&] {
         if (++calls == most) throw Stopped{};
       });
     } catch (Stopped) {
+      stopped = true;
     }
     return calls;
   };
   const int all = calls_until(0);
   CHECK(all > 3);  // more than once for each layer
-  for (int most = 1; most < all; ++most) CHECK(calls_until(most) == most);
+  for (int most = 1; most < all; ++most) {
+    // Other threads may take over blocks of points, so that this one is called less often.
+    const int calls = calls_until(most);
+    CHECK(calls <= most);
+    CHECK(stopped == (calls == most));
+    CHECK((stopped || most > 3));
+  }
 }
 
 TEST_CASE("The same layer pixels give the same bits, and a faint lowest layer stays faint") {

@@ -55,7 +55,7 @@ Complex entry(const StMap& map, int column, int row) {
 
 }  // namespace
 
-TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel") {
+TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel", "[long]") {
   for (const unsigned seed : seeds_of("ST-map", {5}))
     for (size_t m = 0; m < methods().size(); ++m) {
       const Method& method = methods()[m];
@@ -113,7 +113,7 @@ TEST_CASE("ST-map: the part that is drawn on top counts") {
   }
 }
 
-TEST_CASE("Unwarping a posed picture gives the picture back") {
+TEST_CASE("Unwarping a posed picture gives the picture back", "[long]") {
   for (const unsigned seed : seeds_of("Unwarp", {3}))
     for (const char* id : {"cage", "pins", "angles", "puppet", "arap"}) {
       const Scene scene = random_scene(method_named(id), false, seed);
@@ -169,7 +169,7 @@ TEST_CASE("ST-maps and unwarped pictures can be interrupted") {
   CHECK_THROWS_AS(unwarped(scene, &picture, 1, {}, stop), Error);
 }
 
-TEST_CASE("Preimages of many points at once are those of each point") {
+TEST_CASE("Preimages of many points at once are those of each point", "[long]") {
   for (const unsigned seed : seeds_of("many preimages", {1}))
     for (const Method& method : methods())
       for (const bool curved : {false, true}) {

@@ -183,7 +183,7 @@ RealParts vertex_weights(const Cage& cage) {
   return parts;
 }
 
-TEST_CASE("Hilbert coordinates: many points at once give what each gives alone") {
+TEST_CASE("Hilbert coordinates: many points at once give what each gives alone", "[long]") {
   for (const unsigned seed : seeds_of("many points of Hilbert coordinates", {3}))
     for (const Cage& cage :
          {rough_cage(seed, 0), rough_cage(seed, 2), shapes::curved_star(30, 3, 0.1, seed)}) {

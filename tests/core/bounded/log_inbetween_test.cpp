@@ -87,7 +87,7 @@ std::vector<int> inner_vertices(const Cage& cage, int vertices, size_t count,
 
 }  // namespace
 
-TEST_CASE("In-betweens of maps without folds do not fold, and still pins do not slide") {
+TEST_CASE("In-betweens of maps without folds do not fold, and still pins do not slide", "[long]") {
   for (const unsigned seed : seeds_of("certified in-betweens", {1, 2, 3640247491u, 3037148u})) {
     std::mt19937 random(seed);
     for (const Cage& cage : {bar(), frame()}) {

@@ -98,7 +98,7 @@ Points near_points(const Points& polygon, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("Maps next to the boundary agree with 50-digit values, by every code path") {
+TEST_CASE("Maps next to the boundary agree with 50-digit values, by every code path", "[long]") {
   for (const unsigned seed : seeds_of("near boundary", {1, 2, 3})) {
     std::mt19937 random(seed);
     for (int round = 0; round < 2; ++round) {
@@ -268,7 +268,8 @@ PosedHandles random_handles(const Method& method, std::mt19937& random, bool out
 
 }  // namespace
 
-TEST_CASE("Contract: next to the boundary no method jumps, and no point makes the call fail") {
+TEST_CASE("Contract: next to the boundary no method jumps, and no point makes the call fail",
+          "[long]") {
   for (const unsigned seed : seeds_of("boundaries of all methods", {21, 22})) {
     for (const Method& method : methods())
       for (const bool outline : {false, true}) {

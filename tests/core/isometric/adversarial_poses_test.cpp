@@ -38,7 +38,7 @@ Pose posed(const Puppet& puppet, Kind kind, double part, const std::vector<size_
 
 }  // namespace
 
-TEST_CASE("Puppet: every frame of adversarial poses is proved") {
+TEST_CASE("Puppet: every frame of adversarial poses is proved", "[long]") {
   // HOLOMORPH_POSES sets another number of poses for each kind, for measurements.
   const char* given = std::getenv("HOLOMORPH_POSES");
   const int count = given ? std::atoi(given) : 1;

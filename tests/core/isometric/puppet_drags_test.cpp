@@ -72,7 +72,7 @@ Dragged dragged(const Puppet& puppet, Deformer& deformer, std::mt19937& random) 
 
 }  // namespace
 
-TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it shows") {
+TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it shows", "[long]") {
   // HOLOMORPH_DRAGS sets another number of drags, for measurements.
   const char* given = std::getenv("HOLOMORPH_DRAGS");
   const int count = given ? std::atoi(given) : 2;

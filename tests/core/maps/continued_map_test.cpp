@@ -43,7 +43,7 @@ Points points_around(const Mesh& mesh, int count, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("Continued maps: inside they are the map, and everywhere finite") {
+TEST_CASE("Continued maps: inside they are the map, and everywhere finite", "[long]") {
   for (const unsigned seed : seeds_of("continued maps", {}))
     for (const Method& method : methods())
       for (const Shape shape : {Shape::straight, Shape::curved, Shape::holes}) {

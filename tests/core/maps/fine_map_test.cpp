@@ -42,7 +42,7 @@ double largest_error(const FineMap& fine, const Cage& cage, const PointMap& map,
 
 }  // namespace
 
-TEST_CASE("Fine map: linear pieces are within the tolerance of every method's map") {
+TEST_CASE("Fine map: linear pieces are within the tolerance of every method's map", "[long]") {
   for (const unsigned seed : seeds_of("Fine map", {}))
     for (const Method& method : methods())
       for (const Shape shape : {Shape::straight, Shape::curved, Shape::holes}) {

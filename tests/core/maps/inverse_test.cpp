@@ -197,7 +197,8 @@ TEST_CASE("Inverse: a sheet that lies within a triangle at the boundary is found
   CHECK(nearest <= 1e-9);
 }
 
-TEST_CASE("Inverse: the number of preimages is the winding number of the boundary's image") {
+TEST_CASE("Inverse: the number of preimages is the winding number of the boundary's image",
+          "[long]") {
   for (const unsigned seed : seeds_of("preimages", {31, 32, 33})) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -231,7 +232,8 @@ TEST_CASE("Inverse: the number of preimages is the winding number of the boundar
   }
 }
 
-TEST_CASE("Inverse: for every method with a point map, points next to the boundary are recovered") {
+TEST_CASE("Inverse: for every method with a point map, points next to the boundary are recovered",
+          "[long]") {
   constexpr double kAccurate = 1e-11;  // relative to the size plus |w|, as the header states
   for (const unsigned seed : seeds_of("inverses of all methods", {41}))
     for (const Method& method : methods())

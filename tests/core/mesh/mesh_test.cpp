@@ -133,7 +133,7 @@ TEST_CASE("The domain mesh partitions slivers, combs, collinear and nearly repea
     check_partition(shapes::star(4 + 20 * static_cast<int>(seed), 0.6, seed), options);
 }
 
-TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles") {
+TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles", "[long]") {
   for (unsigned seed = 1; seed <= 5; ++seed)
     for (const int degree : {2, 3, 6}) {
       Cage cage = shapes::curved_star(3 + 2 * static_cast<int>(seed), degree, 0.3, seed);

@@ -83,7 +83,8 @@ struct Animal {
 
 }  // namespace
 
-TEST_CASE("As rigid as possible: smooth maps of thin arms are about as rigid as triangles") {
+TEST_CASE("As rigid as possible: smooth maps of thin arms are about as rigid as triangles",
+          "[long]") {
   for (const unsigned seed : seeds_of("rigid and smooth arms", {1, 2, 3})) {
     std::mt19937 random(seed);
     const Animal animal(random);

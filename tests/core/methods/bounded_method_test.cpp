@@ -89,7 +89,8 @@ TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle f
   }
 }
 
-TEST_CASE("Bounded method: drags of cages with many points, curves or holes are certified") {
+TEST_CASE("Bounded method: drags of cages with many points, curves or holes are certified",
+          "[long]") {
   for (const unsigned seed : seeds_of("large bounded cages", {1})) {
     std::mt19937 random(seed);
     Cage ring = shapes::curved_star(12, 3, 0.2, seed + 2);
@@ -156,7 +157,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Bounded method: notches, curves and clockwise cages are certified and do not flip") {
+TEST_CASE("Bounded method: notches, curves and clockwise cages are certified and do not flip",
+          "[long]") {
   std::vector<Cage> cages{shapes::curved_star(8, 3, 0.25, 3), polygon_cage(notched(8)),
                           polygon_cage(notched(4.9)), polygon_cage(shapes::comb(4)),
                           reversed(polygon_cage(shapes::l_shape()))};

@@ -257,7 +257,7 @@ TEST_CASE("Holes: harmonic coordinates of a ring are logarithms of the radius") 
   }
 }
 
-TEST_CASE("Holes: maps are single-valued, and iterating methods without folds prove it") {
+TEST_CASE("Holes: maps are single-valued, and iterating methods without folds prove it", "[long]") {
   for (const unsigned seed : seeds_of("single-valued maps", {1, 2})) {
     std::mt19937 random(seed);
     const Cage cage = seed == 1 ? ring() : random_domain(random);
@@ -336,7 +336,7 @@ TEST_CASE("Holes: methods that do not allow them say so") {
   }
 }
 
-TEST_CASE("Holes: puppets with random holes and pins are certified and closed") {
+TEST_CASE("Holes: puppets with random holes and pins are certified and closed", "[long]") {
   for (const unsigned seed : seeds_of("puppets with holes", {7})) {
     std::mt19937 random(seed);
     for (int k = 0; k < 3; ++k) {
@@ -367,7 +367,7 @@ TEST_CASE("Holes: puppets with random holes and pins are certified and closed") 
   }
 }
 
-TEST_CASE("Holes: puppets are closed in sudden drafts and at limits, too") {
+TEST_CASE("Holes: puppets are closed in sudden drafts and at limits, too", "[long]") {
   for (const unsigned seed : seeds_of("closed puppets", {8})) {
     std::mt19937 random(seed);
     const Cage cage = random_domain(random);

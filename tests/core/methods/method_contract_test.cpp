@@ -105,7 +105,7 @@ TEST_CASE("Contract: the motions that a method reproduces give the same motion o
   });
 }
 
-TEST_CASE("Contract: scaling everything by a power of two changes nothing else") {
+TEST_CASE("Contract: scaling everything by a power of two changes nothing else", "[long]") {
   for_every_method(
       [](const Method& method, Setup s, double tolerance) {
         const SampledMap before = run(method, s.rest, s.pose);
@@ -133,7 +133,7 @@ TEST_CASE("Contract: scaling everything by a power of two changes nothing else")
       Outlines::too);
 }
 
-TEST_CASE("Contract: derivatives agree with finite differences") {
+TEST_CASE("Contract: derivatives agree with finite differences", "[long]") {
   for_every_method(
       [](const Method& method, Setup s, double) {
         if (s.rest.precision == Precision::single)
@@ -172,7 +172,8 @@ TEST_CASE("Contract: the shader's operator reproduces the map") {
 }
 
 TEST_CASE(
-    "Contract: the map at single points equals the map at samples, inside and on the boundary") {
+    "Contract: the map at single points equals the map at samples, inside and on the boundary",
+    "[long]") {
   for_every_method(
       [](const Method& method, const Setup& s, double tolerance) {
         for (const bool clockwise : {false, true}) {
@@ -289,7 +290,7 @@ TEST_CASE("Contract: a final answer that is asked to stop stops or is complete")
   }
 }
 
-TEST_CASE("Contract: a previous deformer does not change the map") {
+TEST_CASE("Contract: a previous deformer does not change the map", "[long]") {
   for_every_method(
       [](const Method& method, const Setup& s, double) {
         Rest fewer = s.rest;

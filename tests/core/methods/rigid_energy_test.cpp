@@ -83,7 +83,7 @@ TEST_CASE("Rigid energy: where cycles end, published iterations do not move eith
   }
 }
 
-TEST_CASE("Rigid energy: a cycle is near the minimum on fine meshes, too") {
+TEST_CASE("Rigid energy: a cycle is near the minimum on fine meshes, too", "[long]") {
   for (const unsigned seed : seeds_of("rigid meshes", {1, 2})) {
     std::mt19937 random(seed);
     const double angle = 0.5 + 0.4 * random_complex(random).real();

@@ -475,7 +475,8 @@ TEST_CASE("Outline: a pin selects one of the conformal maps, and nothing folds")
   CHECK(std::arg((there - Complex(20, 10)) / std::polar(1.0, 2.0)) == Approx(0).margin(0.05));
 }
 
-TEST_CASE("Outline: between shapes with corners, pins reach their targets and nothing folds") {
+TEST_CASE("Outline: between shapes with corners, pins reach their targets and nothing folds",
+          "[long]") {
   const Points square{{0, 0}, {300, 0}, {300, 300}, {0, 300}},
       strip{{0, 0}, {1000, 0}, {1000, 200}, {0, 200}}, round = circle({150, 150}, 150, 60);
   struct Case {
@@ -588,7 +589,8 @@ TEST_CASE(
   CHECK(map_of({40, -24}, false) == end);
 }
 
-TEST_CASE("Outline: maps of curved cages stay near the outline for all degrees of softness") {
+TEST_CASE("Outline: maps of curved cages stay near the outline for all degrees of softness",
+          "[long]") {
   // Each curve needs at least as many samples as unknowns. Otherwise the map explodes between them.
   Cage curved = shapes::curved_star(9, 3, 0.15, 4);
   const Points around = outlines::random(51, false, 300);

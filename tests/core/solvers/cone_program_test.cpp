@@ -189,7 +189,7 @@ ConeSolution from(const VectorXd& x) {
 
 }  // namespace
 
-TEST_CASE("Cone program: its minimum equals Ipopt's") {
+TEST_CASE("Cone program: its minimum equals Ipopt's", "[long]") {
   int compared = 0;
   for (unsigned seed = 1; seed <= 8; ++seed)
     for (const bool with_fit : {false, true}) {

@@ -37,7 +37,7 @@ TEST_CASE("Threads that multiply at the same time do not disturb each other") {
   }
 }
 
-TEST_CASE("Large products are the sums of their terms") {
+TEST_CASE("Large products are the sums of their terms", "[long]") {
   for (const unsigned seed : seeds_of("large products", {1, 2})) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
