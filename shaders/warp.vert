@@ -18,6 +18,9 @@ out vec2 rest_position;     // rest position in plane units, for the checker
 out float shade;
 out vec2 warped;    // read back by transform feedback
 
+// Meshes that are drawn by several programs cover the same pixels.
+invariant gl_Position;
+
 void main() {
   vec2 at = rest;
   if (margin > 0.0) at += margin * (2.0 * rest / picture_size - 1.0);

@@ -16,15 +16,15 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   unsigned id() const { return id_; }
-  /// The location of a uniform.
+  /// The location of a uniform; -1, which OpenGL ignores, if the program does not use it.
   int at(const char* uniform) const;
 
  private:
   unsigned id_ = 0;
 };
 
-/// The programs, built from the files in shaders/. They draw a map of the plane in one of the
-/// colorings of shaders/image.frag, a surface in space, and layers over one another.
+/// The programs, built from the files in shaders/. They draw a map of the plane with one
+/// COLORING of shaders/image.frag, a surface in space, and layers over one another.
 Program warp_program(int coloring);
 Program surface_program();
 Program composite_program();

@@ -38,7 +38,7 @@ int mode_of(Placement placement) {
 
 /// The numbers match the fragment shader.
 enum class Coloring { picture, heat, checker, flat, ghost, page, shadow };
-constexpr size_t kColorings = 7;
+constexpr size_t kColorings = static_cast<size_t>(Coloring::shadow) + 1;
 
 void clear_canvas(const RenderFrame& frame) {
   const int left = static_cast<int>(frame.canvas_left),
@@ -92,9 +92,9 @@ struct Renderer::Objects {
 
   GLint at(const char* name) const { return program->at(name); }
 
-  /// Activates the textures, for all colorings until the next call.
-  void use(const std::array<float, 9>& placed, bool is_diverging) {
-    to_clip = placed;
+  /// Binds the textures, and sets the transformation for the colorings that follow.
+  void use(const std::array<float, 9>& plane_to_clip, bool is_diverging) {
+    to_clip = plane_to_clip;
     const auto bind = [](int unit, GLenum target, GLuint texture) {
       glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
       glBindTexture(target, texture);
@@ -458,8 +458,10 @@ void Renderer::draw(const RenderFrame& frame) {
     gl.draw_page(frame);
   }
   if (frame.content != Content::map) {
-    gl.color(Coloring::picture);
-    if (picture && frame.content == Content::original) gl.draw_quad();
+    if (picture && frame.content == Content::original) {
+      gl.color(Coloring::picture);
+      gl.draw_quad();
+    }
     return finish(frame);
   }
   if (picture && frame.view == View::image && !frame.map_alone)

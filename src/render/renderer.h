@@ -1,5 +1,5 @@
-// Draws the warped picture in OpenGL 3.3: one mesh, one texture, one program. Handles and cages are
-// drawn elsewhere.
+// Draws the warped picture in OpenGL 3.3: one mesh, one texture, one program per coloring. Handles
+// and cages are drawn elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,8 @@ struct RenderFrame {
 };
 
 /// Owns the OpenGL objects. Needs a current OpenGL 3.3 core context during construction, calls and
-/// destruction. The constructor throws Error{failed} if the context lacks a required feature.
+/// destruction. The constructor throws Error{failed} if the context lacks a required feature;
+/// `draw` and `placed_vertices` throw it if a shader does not compile on this driver.
 class Renderer {
  public:
   Renderer();

@@ -173,5 +173,5 @@ class Marks:
         within = [numpy.minimum(x % CELL, CELL - x % CELL) > reach for x in (z.real, z.imag)]
         deep = once & within[0] & within[1]
         off = abs(pixels[row, column] - checker(z))[deep].max(axis=1)
-        return [] if deep.sum() > 1000 and (off <= 1).mean() > 0.99 else [
+        return [] if deep.sum() > 500 and (off <= 1).mean() > 0.99 else [
             f"color: {(off > 1).sum()} of {deep.sum()} pixels inside cells are wrong"]
