@@ -453,7 +453,7 @@ TEST_CASE("Inside: points on the chords of curved segments") {
 
 TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary is inside",
           "[long]") {
-  for (const unsigned seed : seeds_of("inside of cages", {1, 2})) {
+  for (const unsigned seed : seeds_of("inside of cages", {1})) {
     std::mt19937 random(seed);
     for (const int degree : {1, 2, 3, 4}) {
       Cage cage = shapes::curved_star(7, degree, 0.3, seed + static_cast<unsigned>(degree));

@@ -158,7 +158,8 @@ TEST_CASE(
   CHECK(worst_outside(t->apply(conformal.x), {0.001, 0.5, 2}) <= 1e-9);
 }
 
-TEST_CASE("Comparison: all methods unfold a folded picture, and each row measures the result") {
+TEST_CASE("Comparison: all methods unfold a folded picture, and each row measures the result",
+          "[long]") {
   const Folded bar(100);
   std::vector<ComparedMap> rows;
   compare(bar.rest, bar.pose, [&](const ComparedMap& row) { rows.push_back(row); });

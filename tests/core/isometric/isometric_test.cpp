@@ -265,7 +265,7 @@ TEST_CASE("Path tree: the nodes integrate functions of the basis almost to round
   }
 }
 
-TEST_CASE("Isometric maps: the energies of the specification, certified") {
+TEST_CASE("Isometric maps: the energies of the specification, certified", "[long]") {
   struct Row {
     Problem problem;
     double energy;

@@ -55,7 +55,8 @@ Points inner_points(const Cage& cage, int count, unsigned seed, double near_boun
 
 }  // namespace
 
-TEST_CASE("Inverse: every point of a random map is recovered, also next to the boundary") {
+TEST_CASE("Inverse: every point of a random map is recovered, also next to the boundary",
+          "[long]") {
   int points = 0, failed = 0;
   double worst = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {

@@ -63,7 +63,7 @@ Points long_bar() {
 
 }  // namespace
 
-TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle flips") {
+TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle flips", "[long]") {
   using Row = std::pair<const char*, const char*>;
   for (const auto& [reference, space] :
        {Row{"pins", "nu"}, Row{"har_arap", "nu"}, Row{"arap", "nu"}, Row{"pins", "psi"},

@@ -290,7 +290,8 @@ TEST_CASE("Outline: random shapes are mapped onto random outlines without folds"
   }
 }
 
-TEST_CASE("Outline: shapes with limbs and corners are mapped onto each other without folds") {
+TEST_CASE("Outline: shapes with limbs and corners are mapped onto each other without folds",
+          "[long]") {
   const Points letter{{0, 0},     {200, 0},  {200, 60}, {60, 60},   {60, 130},  {170, 130},
                       {170, 190}, {60, 190}, {60, 260}, {200, 260}, {200, 320}, {0, 320}},
       bar{{-300, -30}, {300, -30}, {300, 30}, {-300, 30}}, round = circle(0, 100, 120);
