@@ -63,11 +63,12 @@ TEST_CASE(
         const auto part = largest_part(image);
         int outside = 0;
         for_solid_pixels(
-            width, height, [&](int c, int r) { return part[static_cast<size_t>(r) * width + c]; },
+            image.width, image.height,
+            [&](int c, int r) { return part[static_cast<size_t>(r) * image.width + c]; },
             [&](int c, int r) {
               for (const Complex corner :
                    {Complex(0, 0), Complex(1, 0), Complex(1, 1), Complex(0, 1)})
-                outside += winding_number(cage, Complex(c, height - r - 1) + corner) != 1;
+                outside += winding_number(cage, Complex(c, image.height - r - 1) + corner) != 1;
             });
         CHECK(outside == 0);
         CHECK(domain_mesh(cage, {300}).triangles.size() > 100);
