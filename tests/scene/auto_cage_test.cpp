@@ -54,6 +54,7 @@ TEST_CASE(
     for (const auto& [width, height] :
          {std::pair(90, 70), std::pair(400, 300), std::pair(1700, 1300)})
       for (const int vertices : {12, 30, 80}) {
+        if (width > 1000 && vertices != 30) continue;  // one large cage of each shape is enough
         Image image = blob(width, height, radius);
         image.at(1, 1)[3] = 255;  // a speck outside the largest part
         const Points cage = vertices_of(auto_cage(image, {vertices}));
