@@ -114,7 +114,7 @@ TEST_CASE("ST-map: the part that is drawn on top counts") {
 }
 
 TEST_CASE("Unwarping a posed picture gives the picture back", "[long]") {
-  for (const unsigned seed : seeds_of("Unwarp", {}))
+  for (const unsigned seed : seeds_of("Unwarp", {3}))
     for (const char* id : {"cage", "pins", "angles", "puppet", "arap"}) {
       const Scene scene = random_scene(method_named(id), false, seed);
       Image smooth(kWidth, kHeight);
@@ -170,7 +170,7 @@ TEST_CASE("ST-maps and unwarped pictures can be interrupted") {
 }
 
 TEST_CASE("Preimages of many points at once are those of each point", "[long]") {
-  for (const unsigned seed : seeds_of("many preimages", {}))
+  for (const unsigned seed : seeds_of("many preimages", {1}))
     for (const Method& method : methods())
       for (const bool curved : {false, true}) {
         const Scene scene = random_scene(method, curved, seed);
@@ -180,7 +180,7 @@ TEST_CASE("Preimages of many points at once are those of each point", "[long]") 
         INFO(method.id << (curved ? ", curved" : ", straight") << ", seed " << seed);
         std::mt19937 random(seed);
         Points targets;
-        for (int i = 0; i < 70; ++i)  // not a multiple of a block
+        for (int i = 0; i < 150; ++i)  // not a multiple of a block
           targets.push_back(Complex(200, 200) + 190.0 * random_complex(random));
         const auto found = inverse->at(targets);
         REQUIRE(found.size() == targets.size());
