@@ -1,6 +1,6 @@
-// Colors the warped picture: the texture, a heat map or a checker. Premultiplied alpha. Each program
-// defines one COLORING, 0: picture, 1: heat, 2: checker, 3: one color, 4: tinted picture, 5: page,
-// 6: shadow. Software drivers would compute all branches of a condition at each pixel.
+// Colors the warped picture: the texture, a heat map or a checker. Premultiplied alpha. COLORING is
+// 0: picture, 1: heat, 2: checker, 3: one color, 4: tinted picture, 5: page or 6: shadow. It is a
+// constant, because software drivers compute all branches of a condition at each pixel.
 uniform sampler2D picture;
 uniform sampler1D colors;
 uniform vec4 flat_color;
