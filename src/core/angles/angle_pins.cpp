@@ -4,10 +4,10 @@
 // held there by an additional row.
 #include "core/angles/angle_pins.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "core/angles/boundary_angles.h"
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 namespace {
@@ -32,7 +32,7 @@ MatrixXd inverse_penalty(Index corners, double size) {
   held.row(n).head(n).setConstant(kMeanAngleWeight / static_cast<double>(n));
   held(n + 1, n) = kScaleWeight;
   held(n + 2, n + 1) = held(n + 3, n + 2) = kTranslationWeight / size;
-  return (held.transpose() * held).ldlt().solve(MatrixXd::Identity(n + 3, n + 3));
+  return solve_symmetric_all(held.transpose() * held, MatrixXd::Identity(n + 3, n + 3));
 }
 
 Points positions_of(const std::vector<RestPin>& pins, bool turning_only) {
@@ -133,7 +133,7 @@ AnglePins::Answer AnglePins::pull(const std::vector<PosePin>& targets, bool draf
     const MatrixXd soft = inverse_penalty_ * linear.by.transpose();
     MatrixXd gram = linear.by * soft;
     gram.diagonal().array() += 1e-13 * gram.diagonal().maxCoeff();
-    step = start + soft * gram.ldlt().solve(linear.off + linear.by * (x - start)) - x;
+    step = start + soft * solve_symmetric(gram, linear.off + linear.by * (x - start)) - x;
     step *= std::min(1.0, kMostStep / std::max(1e-12, step.head(n + 1).cwiseAbs().maxCoeff()));
     for (size_t j = 0; j < corners_.size(); ++j) {
       const Index before = 2 * static_cast<Index>(j), after = before + 1;

@@ -2,7 +2,6 @@
 // corners.
 #include "core/angles/hilbert.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 
@@ -11,6 +10,7 @@
 #include "core/geometry/deepest_point.h"
 #include "core/parallel.h"
 #include "core/solvers/dense.h"
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 namespace {
@@ -133,7 +133,7 @@ HilbertCoordinates::HilbertCoordinates(Cage cage, RealParts parts, double tolera
     : cage_(std::move(cage)), parts_(std::move(parts)) {
   set_up_vertices();
   linear_weights_ =
-      (parts_.linear.transpose() * parts_.linear).ldlt().solve(parts_.linear.transpose());
+      solve_symmetric_all(parts_.linear.transpose() * parts_.linear, parts_.linear.transpose());
   for (Index e = 0; e < cage_.size(); ++e) {
     if (bends(e) || bends(cage_.next(e)) || cage_.degree(e) > 1)
       pieces_.insert(pieces_.end(), {{e, 0, 0.5}, {e, 0.5, 1}});

@@ -47,7 +47,7 @@ PsiSpace::PsiSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePo
     disks_.quadratic += pin_weight_ * (re * re.transpose() + im * im.transpose());
   }
   real_columns(distance_.boundary().rows(), re, im);
-  dirichlet_.compute(re.transpose());
+  dirichlet_ = ShortestLeastSquares(re.transpose());
 }
 
 std::vector<Cone> PsiSpace::disks(const VectorXd& u) const {

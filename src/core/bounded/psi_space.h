@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/bounded/bounded_space.h"
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 
@@ -59,8 +60,8 @@ class PsiSpace {
   HolomorphicDistance distance_;  ///< of Psi'
   MatrixXc pins_;                 ///< rows minus their mean, divided by the size
   double pin_weight_, size_;
-  ConeSystem disks_;                                            ///< without the disks' radii
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> dirichlet_;  ///< fits Re l at boundary points
+  ConeSystem disks_;                ///< without the disks' radii
+  ShortestLeastSquares dirichlet_;  ///< fits Re l at boundary points
 };
 
 }  // namespace holomorph

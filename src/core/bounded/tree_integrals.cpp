@@ -1,8 +1,7 @@
 #include "core/bounded/tree_integrals.h"
 
-#include <Eigen/Cholesky>
-
 #include "core/error.h"
+#include "core/solvers/factors.h"
 #include "core/solvers/real_form.h"
 
 namespace holomorph {
@@ -55,7 +54,8 @@ LogMap TreeIntegrals::smallest(const Change& change, const BoundaryBasis& basis,
   real_columns(c, cre, cim);
   MatrixXd columns(4 * n, 2 * rows);
   columns << are + bre, aim - bim, cre, -cim;
-  const VectorXd x = columns * (columns.transpose() * columns).ldlt().solve(stacked(change.wanted));
+  const VectorXd x =
+      columns * solve_symmetric(columns.transpose() * columns, stacked(change.wanted));
   LogMap result{VectorXc::Zero(basis.size()), VectorXc::Zero(basis.size()), change.second};
   if (!x.allFinite()) return result;
   result.l = basis.coefficients(complex_of(x.head(2 * n)));

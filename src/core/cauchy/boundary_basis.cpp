@@ -315,6 +315,10 @@ VectorXd BoundaryBasis::sample_weights() const {
   return weights / weights.sum();
 }
 
+VectorXc BoundaryBasis::coefficients(const VectorXc& unknowns) const {
+  return coefficients_ * unknowns;
+}
+
 Points BoundaryBasis::inset(double share) const {
   const FlatCage fine = flattened(domain_);
   const PolygonView at = samples_;
@@ -335,6 +339,11 @@ Points BoundaryBasis::inset(double share) const {
 
 MatrixXc BoundaryBasis::values(std::span<const Complex> points, int order) const {
   return as_complex(planar_coordinates<double>(polygon_cage(polygon_), points, order));
+}
+
+HolomorphicFit::Fit HolomorphicFit::operator()(const VectorXc& values) const {
+  VectorXc x = unknowns(values);
+  return {x, rows_ * x};
 }
 
 }  // namespace holomorph

@@ -12,12 +12,12 @@
 // is as smooth there as if the skipped vertices did not exist.
 #pragma once
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <optional>
 
 #include "core/geometry/cage.h"
 #include "core/solvers/dense.h"
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 
@@ -82,7 +82,7 @@ class BoundaryBasis {
   MatrixXc whitened(const MatrixXc& values) const;
   const MatrixXc& at_samples() const { return at_samples_; }  ///< the whitened basis
   /// The coefficients a_j for the given unknowns.
-  VectorXc coefficients(const VectorXc& unknowns) const { return coefficients_ * unknowns; }
+  VectorXc coefficients(const VectorXc& unknowns) const;
   /// The matrix that maps unknowns to coefficients: size() x unknowns().
   const MatrixXc& coefficients() const { return coefficients_; }
   /// The unknowns of the constant function 1.
@@ -102,24 +102,21 @@ class HolomorphicFit {
   HolomorphicFit() = default;
   /// Cost: a QR factorization of points x unknowns.
   HolomorphicFit(const BoundaryBasis& basis, std::span<const Complex> points)
-      : rows_(basis.whitened(basis.values(points))), qr_(rows_) {}
+      : rows_(basis.whitened(basis.values(points))), least_squares_(rows_) {}
 
   /// The whitened basis at the points.
   const MatrixXc& rows() const { return rows_; }
-  VectorXc unknowns(const VectorXc& values) const { return qr_.solve(values); }
+  VectorXc unknowns(const VectorXc& values) const { return least_squares_.solve(values); }
 
   /// The function that fits best: the whitened unknowns, and the values at the points.
   struct Fit {
     VectorXc unknowns, values;
   };
-  Fit operator()(const VectorXc& values) const {
-    VectorXc x = unknowns(values);
-    return {x, rows_ * x};
-  }
+  Fit operator()(const VectorXc& values) const;
 
  private:
   MatrixXc rows_;
-  Eigen::HouseholderQR<MatrixXc> qr_;
+  LeastSquares least_squares_;
 };
 
 }  // namespace holomorph

@@ -1,6 +1,7 @@
 // The normal matrices are sparse for triangles and dense for harmonic maps.
 #include "core/compared/derivative_operator.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
 #include "core/error.h"

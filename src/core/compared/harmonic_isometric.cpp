@@ -1,11 +1,10 @@
 #include "core/compared/harmonic_isometric.h"
 
-#include <Eigen/Eigenvalues>
-
 #include "core/error.h"
 #include "core/geometry/similarity.h"
 #include "core/maps/argument.h"
 #include "core/solvers/dense.h"
+#include "core/solvers/factors.h"
 #include "core/solvers/real_form.h"
 
 namespace holomorph {
@@ -37,9 +36,8 @@ Local local_at(Complex phi, Complex psi) {
   Matrix4 h = 4 * (exx * a * a.transpose() + eyy * b * b.transpose() +
                    exy * (a * b.transpose() + b * a.transpose()));
   h.diagonal() += Vector4(2 * ex, 2 * ex, 2 * ey, 2 * ey);
-  const Eigen::SelfAdjointEigenSolver<Matrix4> eigen(h);
-  local.hessian = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                  eigen.eigenvectors().transpose();
+  const Eigen4 eigen = eigen_decomposition(h);
+  local.hessian = eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
   return local;
 }
 
@@ -134,10 +132,9 @@ class HarmonicSolver {
       const Local local = local_at({a[i], b[i]}, {c[i], d[i]});
       local_gradient.segment<4>(4 * i) = problem_.weights[i] * local.gradient;
       // The columns' Gram matrix is the sample's part of the Hessian.
-      const Eigen::SelfAdjointEigenSolver<Matrix4> eigen(problem_.weights[i] * local.hessian);
+      const Eigen4 eigen = eigen_decomposition(problem_.weights[i] * local.hessian);
       for (Index k = 0; k < 4; ++k) {
-        const Vector4 v =
-            std::sqrt(std::max(0.0, eigen.eigenvalues()[k])) * eigen.eigenvectors().col(k);
+        const Vector4 v = std::sqrt(std::max(0.0, eigen.values[k])) * eigen.vectors.col(k);
         columns.col(4 * i + k).head(rows) = v[0] * re_.col(i) + v[1] * im_.col(i);
         columns.col(4 * i + k).tail(rows) = v[2] * re_.col(i) + v[3] * im_.col(i);
       }

@@ -1,11 +1,11 @@
 // H and the map are both fitted with normal equations.
 #include "core/compared/published_angles.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "core/angles/hilbert.h"
 #include "core/cauchy/cauchy.h"
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 
@@ -62,7 +62,8 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   rows << basis.real(), -basis.imag();
   MatrixXd gram = transposed_matrix_product(rows, rows);
   gram.diagonal().array() += 1e-12 * gram.diagonal().mean();
-  const MatrixXd x = gram.ldlt().solve(transposed_matrix_product(rows, angles.values(locations)));
+  const MatrixXd x =
+      solve_symmetric_all(gram, transposed_matrix_product(rows, angles.values(locations)));
   coefficients_ = x.topRows(basis.cols()) + kI * x.bottomRows(basis.cols());
   const MatrixXc at_anchor = functions({&anchor_, 1}, {Index{-1}}) * coefficients_;
   slopes_ = (basis * coefficients_).rowwise() - kI * at_anchor.imag().row(0).cast<Complex>();
@@ -77,7 +78,7 @@ PublishedAngles::PublishedAngles(const Cage& cage, const std::vector<Index>& cor
   const MatrixXc derivative = cauchy_coordinates(nodes_, std::span<const Complex>(points), 1);
   MatrixXc normal = derivative.adjoint() * derivative;
   normal.diagonal().array() += 1e-12 * normal.diagonal().real().mean();
-  fit_ = normal.ldlt().solve(derivative.adjoint());
+  fit_ = solve_hermitian_all(normal, derivative.adjoint());
 }
 
 /// `parts` holds, for each point, the part of the boundary on which it lies, or -1 if it is inside.

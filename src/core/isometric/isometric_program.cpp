@@ -8,6 +8,7 @@
 #include "core/arithmetic.h"
 #include "core/error.h"
 #include "core/isometric/pin_curvature.h"
+#include "core/solvers/factors.h"
 #include "core/solvers/real_form.h"
 
 namespace holomorph {
@@ -128,8 +129,7 @@ class IsometricSolver {
       set_rows(s);
       const Index count = 2 * s.gaps.size();
       const MatrixXd rows = rows_.rightCols(count);
-      const VectorXd d =
-          -rows * (rows.transpose() * rows).ldlt().solve(VectorXd(scaled(s).tail(count)));
+      const VectorXd d = -rows * solve_symmetric(rows.transpose() * rows, scaled(s).tail(count));
       double part = longest_step(s, d);
       State next = at(s.x + part * d);
       constexpr double kShortest = 1e-3;

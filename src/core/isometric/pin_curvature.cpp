@@ -1,6 +1,6 @@
 #include "core/isometric/pin_curvature.h"
 
-#include <Eigen/Eigenvalues>
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 
@@ -70,13 +70,13 @@ MatrixXd PinCurvature::convex_part() const {
     const double ar = bends_[k].alpha.real(), ai = bends_[k].alpha.imag(),
                  br = bends_[k].beta.real(), bi = bends_[k].beta.imag();
     form << ar, -ai, br, -bi, -ai, -ar, -bi, -br, br, -bi, 0, 0, -bi, -br, 0, 0;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(form);
+    const Eigen4 eigen = eigen_decomposition(form);
     const auto re = system_.nodes_by_column.re.col(static_cast<Index>(k)),
                im = system_.nodes_by_column.im.col(static_cast<Index>(k));
     for (int i = 2; i < 4; ++i) {
-      const double value = eigen.eigenvalues()[i];
+      const double value = eigen.values[i];
       if (!(value > 0)) continue;
-      const Eigen::Vector4d v = std::sqrt(value) * eigen.eigenvectors().col(i);
+      const Eigen::Vector4d v = std::sqrt(value) * eigen.vectors.col(i);
       auto column = columns.col(used++);
       column.segment(0, n) = (v[0] * re + v[1] * im).cast<float>();
       column.segment(n, n) = (-v[0] * im + v[1] * re).cast<float>();

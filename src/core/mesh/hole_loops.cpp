@@ -2,7 +2,6 @@
 // some path crosses a given cut once and no other cut. Paths run between midpoints of edges.
 #include "core/mesh/hole_loops.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/geometry/deepest_point.h"
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 namespace {
@@ -189,7 +189,7 @@ HoleLoops::HoleLoops(const Mesh& mesh, PolygonView polygon) {
 VectorXc HoleLoops::correction(const MeshTree& tree, const VectorXc& jumps) const {
   VectorXc correction = VectorXc::Zero(static_cast<Index>(tree.mesh().vertices.size()));
   if (paths_.empty()) return correction;
-  const VectorXc around = windings_.cast<Complex>().partialPivLu().solve(jumps);
+  const VectorXc around = solve_square(windings_.cast<Complex>(), jumps);
   for (size_t h = 0; h < centers_.size(); ++h)
     correction += around[static_cast<Index>(h)] / (2 * kPi) * tree.argument(centers_[h]);
   return correction;

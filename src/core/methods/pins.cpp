@@ -8,7 +8,6 @@
 // the basis at the pins, and T evaluates the affine maps, whose energy is 0. The ridge is positive
 // for soft pins and 0 for exact pins. The system is only as large as the number of pins, and each
 // pin adds one column to the operator.
-#include <Eigen/LU>
 
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
@@ -18,6 +17,7 @@
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 #include "core/solvers/dense.h"
+#include "core/solvers/factors.h"
 
 namespace holomorph {
 namespace {
@@ -269,8 +269,7 @@ class PinsDeformer final : public LinearDeformer<T> {
     system.bottomLeftCorner(affine, m) = T_rows.adjoint();
     MatrixXc data = MatrixXc::Zero(m + affine, m);
     data.topRows(m).setIdentity();
-    const Eigen::FullPivLU<MatrixXc> lu(system);
-    const MatrixXc solution = lu.solve(data);
+    const MatrixXc solution = solve_nearly_singular(system, data);
     if (!solution.allFinite())
       throw Error(ErrorKind::bad_input,
                   "the pins contradict each other; move one away from the others");

@@ -2,10 +2,9 @@
 // The energy of the terms with given targets follows from |Q g| = |g| without using their rows.
 #include "core/solvers/alternating_fit.h"
 
-#include <Eigen/QR>
-
 #include "core/error.h"
 #include "core/solvers/dense.h"
+#include "core/solvers/factors.h"
 #include "core/solvers/real_form.h"
 
 namespace holomorph {
@@ -120,7 +119,7 @@ VectorXc AlternatingFit::anderson() {
   for (Index i = 0; i < m; ++i)
     differences.col(i) = stacked(memory_.change[static_cast<size_t>(i + 1)] -
                                  memory_.change[static_cast<size_t>(i)]);
-  const VectorXd weights = differences.colPivHouseholderQr().solve(stacked(change));
+  const VectorXd weights = pivoted_least_squares(differences, stacked(change));
   VectorXc mixed = next;
   for (Index i = 0; i < m; ++i)
     mixed -=
