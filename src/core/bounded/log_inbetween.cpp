@@ -218,19 +218,17 @@ VectorXc LogInbetween::without_jumps(VectorXc f, const VectorXc& gaps) const {
   return f;
 }
 
-/// The change that keeps the constant integrals, by Gauss-Newton steps from the change that the sum
-/// has; `conformal`: only l changes.
-LogMap LogInbetween::holding(const Interval& interval, double share, Sum sum,
-                             bool conformal) const {
+/// The change that gives integrals their targets, by Gauss-Newton steps from the change that
+/// the sum has; `conformal`: only l changes.
+LogMap LogInbetween::constrained_change(const Kept& kept, Sum sum, bool conformal) const {
   constexpr int kSteps = 3, kMostSteps = 8;
   constexpr double kClosed = 1e-8;  // of the size
-  const VectorXc target = (1 - share) * interval.at_from + share * interval.at_to;
-  for (int step = 0; step < kMostSteps && interval.constant.rows() > 0; ++step) {
+  for (int step = 0; step < kMostSteps && kept.combinations.rows() > 0; ++step) {
     const Derivatives d = weighted(sum);
-    const VectorXc off = target - interval.constant * integrals_.of(d.phi, d.psi);
+    const VectorXc off = kept.targets - kept.combinations * integrals_.of(d.phi, d.psi);
     if (step >= kSteps && off.cwiseAbs().maxCoeff() <= kClosed * size_) break;
     const LogMap more =
-        integrals_.smallest({interval.constant, off, LogMap::Second::nu, conformal}, *basis_, d);
+        integrals_.smallest({kept.combinations, off, LogMap::Second::nu, conformal}, *basis_, d);
     sum.change.l += more.l;
     sum.change.w += more.w;
   }
@@ -247,35 +245,47 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
     for (size_t k = 0; k < 4; ++k) weights[k] += bernstein[p] * controls[p][k];
   Sum sum = owner->sum_of(keys, weights);
   Blend blend;
-  const auto certifies_with = [&](const LogMap& change, double part) {
-    sum.change.l = part * change.l;
-    sum.change.w = part * change.w;
+  const auto certifies_with = [&](const LogMap& change) {
+    sum.change = change;
     blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
     return blend.certified;
   };
-  const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
   const Sum blended = sum;
-  const LogMap whole = owner->holding(*this, share, blended, conformal);
+  const auto between = [&](const LogMap& a, const LogMap& b, double part) {
+    Sum middle = blended;
+    middle.change.l = (1 - part) * a.l + part * b.l;
+    middle.change.w = (1 - part) * a.w + part * b.w;
+    return middle;
+  };
+  const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
+  const Kept kept{constant, (1 - share) * at_from + share * at_to};
+  const LogMap whole = owner->constrained_change(kept, blended, conformal);
   // A larger change, of l alone, does not increase |nu|, but the size changes more. In between,
   // both change less.
   const auto certifies_otherwise = [&] {
     if (conformal) return false;
-    const LogMap alone = owner->holding(*this, share, blended, true);
-    if (certifies_with(alone, 1)) return true;
-    Sum middle = blended;
-    middle.change.l = 0.5 * (whole.l + alone.l);
-    middle.change.w = 0.5 * (whole.w + alone.w);
-    return certifies_with(owner->holding(*this, share, middle, false), 1);
+    const LogMap alone = owner->constrained_change(kept, blended, true);
+    return certifies_with(alone) ||
+           certifies_with(owner->constrained_change(kept, between(whole, alone, 0.5), false));
   };
-  double part = 1;
-  // If nothing certifies, the map moves toward the blend, which does.
-  if (!certifies_with(whole, 1) && !certifies_otherwise()) {
+  // If nothing certifies, the map moves toward the blend, which does. Holes stay closed.
+  if (!certifies_with(whole) && !certifies_otherwise()) {
+    const Index holes = static_cast<Index>(owner->loops_.paths().size());
+    const Kept closed{kept.combinations.bottomRows(holes), kept.targets.tail(holes)};
+    const LogMap least = owner->constrained_change(closed, blended, conformal);
     constexpr double kLeast = 1e-3;
-    part = 0.5;
-    while (!certifies_with(whole, part) && part > 0) part = part > kLeast ? 0.5 * part : 0;
+    blend.held = 0.5;
+    while (!certifies_with(
+               owner->constrained_change(closed, between(least, whole, blend.held), conformal)) &&
+           blend.held > 0)
+      blend.held = blend.held > kLeast ? 0.5 * blend.held : 0;
+    // The last resort for holes is a change of l alone.
+    if (!blend.certified && holes > 0 && !conformal) {
+      const LogMap alone = owner->constrained_change(closed, blended, true);
+      if (!certifies_with(alone))
+        certifies_with(owner->constrained_change(closed, between(least, alone, 0.5), false));
+    }
   }
-  const bool closed = owner->loops_.paths().empty() || part == 1;
-  blend.certified = blend.certified && closed;
   MapOnMesh::Values values = owner->on_mesh(sum);
   blend.first = std::move(values.first);
   blend.f = std::move(values.f);
@@ -284,6 +294,8 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
     const Index holes = static_cast<Index>(owner->loops_.paths().size());
     const VectorXc gaps = owner->integrals_.of(d.phi, d.psi).tail(holes);
     blend.gap = gaps.cwiseAbs().maxCoeff();
+    constexpr double kClosed = 1e-6;
+    if (blend.gap > kClosed * owner->size_) blend.certified = false;
     blend.f = owner->without_jumps(std::move(blend.f), gaps);
   }
   blend.f += (1 - share) * off_from + share * off_to;

@@ -4,7 +4,7 @@
 // within the bounds of the keys, because they are convex. Smooth motion is a Bezier curve whose
 // inner points are certified, so all of its points are. Then the smallest change keeps those
 // stations still that both keys hold, and closes holes. If it does not certify, a change of l alone
-// is tried, one between the two, and then smaller changes.
+// is tried, one between the two, and then smaller changes, which still close holes.
 #pragma once
 
 #include <array>
@@ -42,6 +42,9 @@ class LogInbetween {
     /// Whether it is proved that |nu| and the smallest size stay within 1 % of the keys' extremes.
     bool certified = false;
     std::optional<Extremes> extremes;  ///< if both keys are in the space L_nu
+    /// The fraction of the correction that keeps stations still where both keys hold them. 1: they
+    /// stay to rounding error. Smaller: no larger fraction could be proved.
+    double held = 1;
     /// By how much f jumped before the jumps were spread over the picture; 0 without holes.
     double gap = 0;
   };
@@ -87,7 +90,12 @@ class LogInbetween {
   double norm(const Sum& sum) const;
   double distance(const Key& a, const Key& b) const;
   std::array<double, 4> velocity(const std::array<const Key*, 4>& keys, size_t at) const;
-  LogMap holding(const Interval& interval, double share, Sum sum, bool conformal) const;
+  /// Combinations of integrals, and what they should be.
+  struct Kept {
+    MatrixXd combinations;
+    VectorXc targets;
+  };
+  LogMap constrained_change(const Kept& kept, Sum sum, bool conformal) const;
   MapOnMesh::Values on_mesh(const Sum& sum) const;
   VectorXc without_jumps(VectorXc f, const VectorXc& gaps) const;
 

@@ -31,6 +31,7 @@ class LogInterval final : public MotionInterval {
                                                  : SampledMap::Status::infeasible;
     map.note = !blend.certified ? "Between keyframes: not proved"
                : flipped > 0    ? coarse_mesh_text(flipped)
+               : blend.held < 1 ? "Between keyframes: no folds, pins that should stay slide"
                                 : "Between keyframes: no folds";
     return map;
   }

@@ -1,5 +1,4 @@
 // Locally injective harmonic maps: the maps nearest to known maps, and the proofs of their bounds.
-#include <catch2/catch.hpp>
 
 #include "bench/known_maps.h"
 #include "core/bounded/bounded_space.h"
@@ -7,9 +6,10 @@
 #include "core/maps/argument.h"
 #include "core/mesh/antiderivative.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::bounded_test {
 using Norm = BoundedSettings::Norm;
 
 using known_maps::KnownMap;
@@ -307,3 +307,5 @@ TEST_CASE("Mesh tree: it integrates along a mesh to the order of its rule") {
     last = error;
   }
 }
+
+}  // namespace holomorph::bounded_test

@@ -1,13 +1,13 @@
 // The spaces L_psi and H: pins reach their targets, sizes are kept, and the bounds are proved.
-#include <catch2/catch.hpp>
 
+#include "core/bounded/psi_space.h"
 #include "bench/known_maps.h"
 #include "core/bounded/map_on_mesh.h"
-#include "core/bounded/psi_space.h"
 #include "core/error.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::psi_space_test {
 using known_maps::KnownMap;
 using known_maps::Projection;
 
@@ -137,3 +137,5 @@ TEST_CASE(
   }
   CHECK(before <= 1e-4 * size);
 }
+
+}  // namespace holomorph::psi_space_test
