@@ -1,105 +1,46 @@
-// The GLFW window and the ImGui context in it: receives events, draws frames, and sleeps when idle.
+// The GLFW window with its OpenGL context: the screen that people see.
 #pragma once
 
-#include <atomic>
-#include <deque>
-#include <map>
-#include <string>
-#include <vector>
+#include <optional>
 
-#include "edit/input.h"
-#include "scene/preferences.h"
-#include "system/file.h"
+#include "app/screen.h"
 
 struct GLFWwindow;
 
 namespace holomorph {
 
-struct KeyPress {
-  Shortcut key;
-  bool repeats = false;  ///< sent by auto-repeat while the key is held
-};
-
-/// Owns the window, its OpenGL context and the ImGui context. The constructor throws Error{failed}
-/// if there is no display or no OpenGL 3.3.
-class Window {
+/// Owns the window and its OpenGL context, which is current while the window exists.
+class Window final : public Screen {
  public:
-  Window(int width, int height, double ui_scale, Theme theme, bool reduce_motion);
-  ~Window();
-  Window(const Window&) = delete;
-  Window& operator=(const Window&) = delete;
+  /// The size is in window px. Throws Error{failed} if there is no display or no OpenGL 3.3.
+  Window(int width, int height, const Preferences& preferences);
+  ~Window() override;
 
-  /// Waits until a frame must be drawn, but at most `longest` seconds. Returns whether to draw one.
-  /// Each event and each call of wake() causes several frames.
-  bool wait(double longest);
-  /// Makes wait() return. May be called from any thread.
-  void wake();
-  /// Starts a frame of the user interface. The caller then draws with OpenGL until end_frame().
-  /// Each frame handles at most one press or release of a mouse button, at the position where it
-  /// happened, even if frames are slow. With `navigates`, the arrow keys, Tab, Space and Enter
-  /// operate the dialog or panel that has ImGui's focus. If Enter or Space is already held,
-  /// navigation starts when it is released.
-  void begin_frame(bool navigates);
-  void end_frame();
-
-  /// Sets fonts and sizes for a scale (0: the display's scale) and the colors of a theme.
-  void set_style(double ui_scale, Theme theme, bool reduce_motion);
-  double scale() const { return scale_; }
-  Theme theme() const { return theme_; }
-
-  /// Key presses since the last call.
-  std::vector<KeyPress> take_keys();
-  /// Files dropped on the window since the last call.
-  std::vector<Path> take_drops();
-  /// Whether the user has tried to close the window since the last call. The window stays open
-  /// until the program closes it.
-  bool take_close();
-  /// Whether a key is held. Keys are identified by the character that the keyboard layout prints.
-  bool is_down(const Shortcut& key) const;
-  /// Whether events are queued for later frames.
-  bool has_events() const { return !events_.empty(); }
-  /// Number of presses and releases of keys and mouse buttons handled so far.
-  int taken() const { return taken_; }
-  /// With `held`, Alt counts as held from the next frame on, even if the key is not pressed.
-  void set_alt_override(bool held) { alt_ = held; }
-  bool alt_override() const { return alt_; }
-  void set_title(const std::string& title);
-
-  int width() const;  ///< in window px
-  int height() const;
-  int framebuffer_width() const;
-  int framebuffer_height() const;
+  double now_ms() const override;
+  void set_title(const std::string& title) override;
+  int width() const override;
+  int height() const override;
+  int framebuffer_width() const override;
+  int framebuffer_height() const override;
 
  private:
-  struct Event {
-    enum class Type { move, button, key, character, scroll } kind;
-    double x = 0, y = 0;  ///< pointer position in window px, or scrolled lines
-    int code = 0, scancode = 0, action = 0, mods = 0;
-  };
-  void add(const Event& event);
+  static Window* self(GLFWwindow* window);
+  void open(int width, int height);
+  void receive_input();
+  void receive_state();
   /// Position of the pointer after the latest event, in window px.
   std::pair<double, double> pointer() const;
-  void pump_events();
-  void take_key(const Event& event);
-  void queue_character(unsigned code);
+
+  void poll(double longest) override;
+  void interrupt() override;
+  void begin_drawing() override;
+  void present() override;
+  double display_scale() const override;
+  void upload_fonts() override;
+  char character_on(int key, int scancode) const override;
 
   GLFWwindow* window_ = nullptr;
-  std::atomic<bool> woken_{false};
-  int owed_frames_ = 3, taken_ = 0;
-  double frame_start_ = 0, frame_seconds_ = 0;  ///< of the last frame
-  double scale_ = 1, wanted_scale_ = 0;
-  bool reduce_motion_ = false;
-  Theme theme_ = Theme::dark;
-  bool alt_ = false, close_ = false, moved_display_ = false;
-  bool enter_activates_ = false;         ///< Enter is held and was pressed outside a text field
-  bool held_before_navigation_ = false;  ///< Enter or Space was already held when navigation began
-  std::vector<KeyPress> keys_;
-  std::map<int, int> held_;  ///< GLFW code of each held key -> the character printed on it
-  std::deque<Event> events_;
   std::optional<std::pair<double, double>> pointer_;  ///< position at the latest event, window px
-  double mouse_x_ = -1e9, mouse_y_ = -1e9;
-  bool mouse_down_[3] = {false, false, false};
-  std::vector<Path> drops_;
 };
 
 /// Whether a display is set. No window can be opened without one.

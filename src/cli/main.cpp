@@ -3,7 +3,7 @@
 #include <csignal>
 #include <iostream>
 
-#include "app/editor.h"
+#include "app/run_editor.h"
 #include "cli/commands.h"
 #include "cli/formats.h"
 #include "cli/progress.h"
@@ -314,8 +314,6 @@ void CommandLine::add_bench(CLI::App& app) {
 void CommandLine::add_to(CLI::App& app) {
   app.set_version_flag("--version", HOLOMORPH_VERSION);
   app.add_option("FILE", editor.file, "A scene (.json) or a picture to open");
-  app.add_option("--state", editor.state_file,
-                 "Write the editor's state to this file whenever it changes (for scripts)");
   app.add_flag("--allow-outside", editor.allow_outside,
                "Show pictures that are not in the scene's folder without asking");
   add_budget(&app);

@@ -1,7 +1,6 @@
 // A folder is read when it is entered, not in every frame.
 #include "app/dialogs/file_dialog.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

@@ -1,7 +1,6 @@
 // Each control is an ImGui item with a drawing of its own, so that keys and focus work as usual.
 #include "app/look/controls.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 // Must follow imgui.h, because it does not include that header itself.

@@ -1,7 +1,6 @@
 // Tooltips are drawn here only, so that they look alike and never cover a menu.
 #include "app/look/items.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui_internal.h>
 
 namespace holomorph {

@@ -1,13 +1,13 @@
 // ImGui's drag field keeps its behavior, but its text is drawn here, because ImGui centers it.
 #include "app/look/numbers.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui_internal.h>
 
 #include <algorithm>
 #include <cstdio>
 
 #include "app/look/controls.h"
+#include "app/look/imgui_versions.h"
 #include "edit/actions/icons.h"
 
 namespace holomorph {
@@ -54,9 +54,8 @@ Change track(const std::string& name, double& value, const Number& number, float
   ImGui::ItemSize(box.GetSize(), 0);
   if (!ImGui::ItemAdd(box, id)) return {};
   ImGuiContext& imgui = *ImGui::GetCurrentContext();
-  const bool hovered = ImGui::ItemHoverable(box, id);
-  if ((hovered && imgui.IO.MouseClicked[0]) || imgui.NavActivateId == id ||
-      imgui.NavActivateInputId == id) {
+  const bool hovered = is_hoverable(box, id);
+  if ((hovered && imgui.IO.MouseClicked[0]) || is_activated(imgui, id)) {
     ImGui::SetActiveID(id, window);
     ImGui::SetFocusID(id, window);
     ImGui::FocusWindow(window);

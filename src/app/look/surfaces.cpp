@@ -1,7 +1,6 @@
 // Shadows are drawn outside of each surface, so that they can be drawn after its background.
 #include "app/look/surfaces.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui_internal.h>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 // window.
 #include "app/look/theme.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui_internal.h>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 // free.
 #include "app/panels/first_steps.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

@@ -1,5 +1,4 @@
 // The panel on the right: the selection, the layers and the method, then what is needed less often.
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

@@ -1,7 +1,6 @@
 // The panel holds the name that is being typed. The scene changes only when typing ends.
 #include "app/panels/layer_panel.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

@@ -1,7 +1,6 @@
 // Methods are shown by what they do. Their settings are closed until someone wants them.
 #include "app/panels/method_panel.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

@@ -1,6 +1,5 @@
 // The bar over the canvas: options of the active tool and of what is selected. Groups that do not
 // fit move into a list under "More".
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

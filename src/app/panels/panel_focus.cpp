@@ -1,7 +1,6 @@
 // Within a window, ImGui itself moves the focus between items, but it must be told where to begin.
 #include "app/panels/panel_focus.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 // Needed because the functions of imgui.h cannot focus an item that is not under the pointer.
 #include <imgui_internal.h>

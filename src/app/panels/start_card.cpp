@@ -1,7 +1,6 @@
 // The choices are drawings. A click on the picture itself is the shortest way, and needs no choice.
 #include "app/panels/start_card.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

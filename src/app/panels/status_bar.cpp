@@ -1,6 +1,5 @@
 // The left part says what to do or what is wrong. The right part shows figures and is never cut
 // off.
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

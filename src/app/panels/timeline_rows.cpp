@@ -1,7 +1,6 @@
 // All keyframes lie on one item, which finds by itself what is under the pointer.
 #include "app/panels/timeline_rows.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

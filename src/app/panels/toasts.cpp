@@ -1,7 +1,6 @@
 // Each message is shown in its own small window, as wide as its text. The windows are stacked.
 #include "app/panels/toasts.h"
 
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -10,7 +9,6 @@
 
 #include "app/look/controls.h"
 #include "app/look/surfaces.h"
-#include "core/clock.h"
 #include "edit/actions/icons.h"
 
 namespace holomorph {
@@ -21,7 +19,7 @@ constexpr double kWidest = 480;
 
 }  // namespace
 
-void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
+void Toasts::draw(Workspace& workspace, const OverlayStyle& style, double now_ms) {
   const size_t step = workspace.document.history().index();
   // Remove messages about a point after the next history step, because the point may have changed.
   std::erase_if(shown_,
@@ -29,7 +27,7 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   for (Toast& toast : std::exchange(workspace.messages.toasts, {})) {
     // A repeated message is shown longer instead of twice.
     std::erase_if(shown_, [&](const Shown& shown) { return shown.toast.text == toast.text; });
-    const double until = now_ms() + (toast.problem ? kProblemMs : kShownMs);
+    const double until = now_ms + (toast.problem ? kProblemMs : kShownMs);
     shown_.push_back({std::move(toast), until, step});
   }
   const ThemeColors& c = theme_colors();
@@ -40,7 +38,7 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   float y = static_cast<float>(view.top + view.height) - margin;
   for (size_t i = shown_.size(); i-- > 0;) {
     const Toast& toast = shown_[i].toast;
-    const float remaining = static_cast<float>((shown_[i].until - now_ms()) / kLeavesMs);
+    const float remaining = static_cast<float>((shown_[i].until - now_ms) / kLeavesMs);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(14), px(10)});
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::clamp(remaining, 0.2f, 1.0f));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(c.raised));
@@ -68,8 +66,8 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style) {
   }
 }
 
-bool Toasts::expire() {
-  return std::erase_if(shown_, [](const Shown& shown) { return shown.until < now_ms(); }) > 0;
+bool Toasts::expire(double now_ms) {
+  return std::erase_if(shown_, [&](const Shown& shown) { return shown.until < now_ms; }) > 0;
 }
 
 }  // namespace holomorph

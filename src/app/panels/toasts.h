@@ -9,10 +9,10 @@ class Toasts {
  public:
   /// Takes over the workspace's messages, and draws all messages that have not expired. For a
   /// message about a point, marks the point and draws a button that moves the view there.
-  void draw(Workspace& workspace, const OverlayStyle& style);
+  void draw(Workspace& workspace, const OverlayStyle& style, double now_ms);
   bool empty() const { return shown_.empty(); }
   /// Removes expired messages. Returns whether it removed any.
-  bool expire();
+  bool expire(double now_ms);
 
  private:
   struct Shown {

@@ -1,5 +1,4 @@
 // The bar of tools at the left edge: tools for the pose, tools for shapes, and what is on or off.
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 

@@ -1,6 +1,5 @@
 // The welcome page of an empty window: what to do at the left, recent files and samples at the
 // right.
-#define IMGUI_DEFINE_MATH_OPERATORS
 #include <imgui.h>
 #include <imgui_internal.h>
 
