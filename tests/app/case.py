@@ -1,4 +1,4 @@
-# Helpers for the tests of the real window.
+# Helpers for the stories of the window.
 import json
 import os
 import shutil
@@ -10,9 +10,17 @@ import unittest
 import numpy
 from PIL import Image
 
-PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+PROGRAM, SOURCE, EDITORS = (os.path.abspath(path) for path in sys.argv[1:4])
+# Stories are told on a recorded screen, which takes milliseconds. With --real, those that need a real window are told
+# in one, and with --all the others, too.
+REAL, ALL = "--real" in sys.argv, "--all" in sys.argv
 sys.path.append(os.path.join(SOURCE, "tests/support"))
-from old_samples import old_sample  # noqa: E402
+from old_samples import old_sample  # noqa: E402, F401
+import timed  # noqa: E402
+from seeds import seed_of, soak  # noqa: E402, F401
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+import driver  # noqa: E402
+import recorded  # noqa: E402
 OUT = os.path.join(os.path.dirname(PROGRAM), "screenshots")
 
 
@@ -21,8 +29,28 @@ def load(path):
         return json.load(file)
 
 
+def Editor(arguments=(), **options):
+    if REAL:
+        return driver.Editor(os.path.join(EDITORS, "real_editor"), arguments, **options)
+    return recorded.RecordedEditor(os.path.join(EDITORS, "recorded_editor"), arguments, **options)
+
+
+def real(test):
+    """Marks a story that needs a real window: pixels, other programs, sleep."""
+    test.needs_window = True
+    return test
+
+
+def real_in_soak(test):
+    """Marks one that scripts/soak tells, because others like it are told in each run."""
+    return real(soak(test))
+
+
 class WindowCase(unittest.TestCase):
     def setUp(self):
+        needs_window = hasattr(getattr(self, self._testMethodName), "needs_window")
+        if needs_window != REAL and not (REAL and ALL):
+            self.skipTest("runs in a real window" if needs_window else "runs on a recorded screen")
         self.work = tempfile.mkdtemp(prefix="holomorph-work-")
         self.picture = os.path.join(self.work, "gecko.png")
         shutil.copy(os.path.join(SOURCE, "assets/gecko.png"), self.picture)
@@ -32,6 +60,9 @@ class WindowCase(unittest.TestCase):
         shutil.rmtree(self.work)
 
     def screenshot(self, editor, name):
+        """What the window shows, as an array of colors; None on a recorded screen."""
+        if not REAL:
+            return None
         path = os.path.join(OUT, name + ".png")
         editor.screenshot(path)
         return numpy.asarray(Image.open(path).convert("RGB")).astype(int)
@@ -59,9 +90,9 @@ class WindowCase(unittest.TestCase):
             editor.key(key)
             end = time.time() + 3
             while time.time() < end and not editor.state()["asking"]:
-                time.sleep(0.05)
+                editor.pause(0.05)
             if editor.state()["asking"]:
-                return time.sleep(0.8)
+                return editor.pause(0.8)
         self.fail(f"no dialog appears after {key}")
 
     def type_into_inspector(self, editor, number, text):
@@ -73,26 +104,26 @@ class WindowCase(unittest.TestCase):
         editor.key("ctrl+a")
         editor.type(text)
         editor.key("Return")
-        time.sleep(0.3)
+        editor.pause(0.3)
         editor.key("Escape")
         editor.wait(lambda s: not s["in_panel"], "the canvas with the keyboard focus")
 
     def type_into(self, editor, name, text):
         """Types into a number field, given by the name of its item."""
         editor.press_item(name)
-        time.sleep(0.3)
+        editor.pause(0.3)
         editor.key("ctrl+a")
         editor.type(text)
         editor.key("Return")
-        time.sleep(0.3)
+        editor.pause(0.3)
 
     def by_palette(self, editor, words):
         """Runs an action by name from the command palette."""
         self.ask(editor, "ctrl+shift+p")
         editor.type(words)
         editor.key("Return")
-        time.sleep(0.4)
+        editor.pause(0.4)
 
 
 def run_tests():
-    unittest.main(argv=[sys.argv[0]] + sys.argv[3:], verbosity=2, warnings="ignore")
+    timed.main([word for word in sys.argv[4:] if word not in ("--real", "--all")])

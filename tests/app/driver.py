@@ -7,10 +7,10 @@ import tempfile
 import time
 
 
-class Editor:
-    """The editor on its own display, with its own home directory."""
+class Display:
+    """A virtual display, and a program on it with its own home directory."""
 
-    def __init__(self, program, arguments=(), size="1400x900", home=None, settles=True):
+    def __init__(self, size="1400x900", home=None):
         self.folder = tempfile.mkdtemp(prefix="holomorph-gui-")
         self.home = home or self.folder
         if not home:  # hides the first steps, which would cover what tests click on
@@ -30,14 +30,18 @@ class Editor:
                                 XDG_CONFIG_HOME=self.home + "/config", XDG_STATE_HOME=self.home + "/state",
                                 LIBGL_ALWAYS_SOFTWARE="1", ASAN_OPTIONS="detect_leaks=0")
         self.environment.pop("WAYLAND_DISPLAY", None)
-        self.state_path = self.folder + "/state.json"
         self.log = open(self.folder + "/log", "w")
-        self.process = subprocess.Popen([program, *arguments, "--state", self.state_path],
-                                        env=self.environment, stdout=self.log, stderr=self.log, cwd=self.folder)
-        if settles:
-            self.wait(lambda s: s is not None, "the first frame", 30)
-        while not settles and self.state() is None:
-            time.sleep(0.005)
+
+    def run(self, *command):
+        self.process = subprocess.Popen(command, env=self.environment, stdout=self.log, stderr=self.log, cwd=self.folder)
+
+    def messages(self):
+        self.log.flush()
+        with open(self.folder + "/log") as file:
+            return file.read()
+
+    def screenshot(self, path):
+        subprocess.run(["import", "-window", "root", path], env=self.environment, check=True)
 
     def __enter__(self):
         return self
@@ -49,6 +53,19 @@ class Editor:
         self.server.wait()
         self.log.close()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+class Editor(Display):
+    """The editor on a display. `program` writes its state into a file (real_editor.cpp)."""
+
+    def __init__(self, program, arguments=(), size="1400x900", home=None, settles=True):
+        super().__init__(size, home)
+        self.state_path = self.folder + "/state.json"
+        self.run(program, *arguments, "--state", self.state_path)
+        if settles:
+            self.wait(lambda s: s is not None, "the first frame", 30)
+        while not settles and self.state() is None:
+            time.sleep(0.005)
 
     def state(self):
         try:
@@ -69,10 +86,8 @@ class Editor:
             time.sleep(0.03)
         raise AssertionError(f"timed out while waiting for {what}; the state is {self.state()}; " + self.messages())
 
-    def messages(self):
-        self.log.flush()
-        with open(self.folder + "/log") as file:
-            return file.read()
+    def pause(self, seconds):
+        time.sleep(seconds)
 
     def xdotool(self, *words, pause=0.12):
         """Sends input events, and waits until the window has drawn what moves and buttons change."""
@@ -204,6 +219,3 @@ class Editor:
         since = self.taken()
         self.xdotool("type", "--delay", "15", text, pause=0)
         self.settle(since, 2 * len(text))
-
-    def screenshot(self, path):
-        subprocess.run(["import", "-window", "root", path], env=self.environment, check=True)

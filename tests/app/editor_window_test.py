@@ -7,14 +7,12 @@ import stat
 import subprocess
 import sys
 import time
-import unittest
 
 import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, WindowCase, load, old_sample, run_tests  # noqa: E402
-from driver import Editor  # noqa: E402
+from case import PROGRAM, SOURCE, Editor, WindowCase, real, real_in_soak, load, old_sample, run_tests, seed_of  # noqa: E402
 
 RED, BLUE, GREEN = (220, 30, 30), (30, 60, 220), (20, 160, 60)
 
@@ -35,7 +33,7 @@ class EditorWindowTest(WindowCase):
         while time.time() < end:
             if numpy.abs(self.color_at(editor, *place) - color).max() < 12:
                 return
-            time.sleep(0.1)
+            editor.pause(0.1)
         self.fail(f"{what}: the color at {place} is {self.color_at(editor, *place)}, not {color}")
 
     def program(self, name, script):
@@ -57,11 +55,12 @@ class EditorWindowTest(WindowCase):
             json.dump(values, file)
         return home
 
+    @real_in_soak
     def test_layers_are_added_hidden_locked_ordered_and_saved(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
         blue = self.plain("blue.png", BLUE, (150, 200))
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             self.wait_color(editor, (150, 100), RED, "the lower layer")
             editor.drop(blue, 400, 400)
@@ -93,6 +92,7 @@ class EditorWindowTest(WindowCase):
         self.assertEqual([layer["image"]["file"] for layer in saved["layers"]], ["blue.png", "caged.png"])
         self.assertEqual(saved["edited"], 1)
 
+    @real_in_soak
     def test_blended_layers_look_like_the_export(self):
         rng = numpy.random.default_rng(20)
         for mode in ("multiply", "screen", "overlay", "add", "normal"):
@@ -109,20 +109,19 @@ class EditorWindowTest(WindowCase):
                          "cage": {"rest": [[[0, 0]], [[150, 0]], [[150, 200]], [[0, 200]]]}}]}, file)
                 subprocess.run([PROGRAM, "render", scene, "--out", out, "--force"], check=True, capture_output=True)
                 exported = numpy.asarray(Image.open(out).convert("RGB")).astype(int)
-                with Editor(PROGRAM, [scene]) as editor:
+                with Editor([scene]) as editor:
                     editor.wait(lambda s: s["layers"] == 2 and s["pictured"], "the scene")
                     editor.wait(lambda s: not s["moving"], "an interface at rest")
-                    time.sleep(0.5)
+                    editor.pause(0.5)
                     shot = self.screenshot(editor, "blended-" + mode)
                     for x, y in ((75, 100), (225, 100)):
                         px, py = editor.pixel(x, y)
                         difference = numpy.abs(shot[py, px] - exported[200 - y, x]).max()
                         self.assertLessEqual(difference, 1, (mode, opacity, colors, x, shot[py, px], exported[200 - y, x]))
 
+    @real
     def test_clipped_layers_look_like_the_export(self):
-        rng = numpy.random.default_rng()
-        seed = int(rng.integers(1 << 30))
-        print("clipped layers: seed", seed)
+        seed = seed_of("clipped layers")
         rng = numpy.random.default_rng(seed)
         colors = [tuple(int(c) for c in rng.integers(0, 256, 3)) for _ in range(4)]
         squares = [(0, 300), (40, 160), (90, 280), (120, 260)]  # left and right edges
@@ -140,10 +139,10 @@ class EditorWindowTest(WindowCase):
         subprocess.run([PROGRAM, "render", scene, "--out", out, "--force"], check=True, capture_output=True)
         exported = numpy.asarray(Image.open(out).convert("RGB")).astype(int)
         self.assertEqual(exported[100, 200].tolist(), list(colors[0]))  # beside the base
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["layers"] == 4 and s["pictured"], "the scene")
             editor.wait(lambda s: not s["moving"], "an interface at rest")
-            time.sleep(0.5)
+            editor.pause(0.5)
             shot = self.screenshot(editor, "clipped")
             for x in (20, 60, 105, 140, 200, 290):
                 px, py = editor.pixel(x, 100)
@@ -163,7 +162,7 @@ class EditorWindowTest(WindowCase):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         for kind in ("psd", "ora"):
             out = os.path.join(self.work, "layers." + kind)
-            with Editor(PROGRAM, [scene]) as editor:
+            with Editor([scene]) as editor:
                 editor.wait(lambda s: s["cage_points"] == 4, "the scene")
                 self.ask(editor, "ctrl+e")
                 editor.key("ctrl+a")
@@ -176,11 +175,11 @@ class EditorWindowTest(WindowCase):
     def test_a_drawing_opens_bends_and_is_exported_as_a_drawing(self):
         drawing = os.path.join(self.work, "gecko.svg")
         shutil.copy(os.path.join(SOURCE, "assets/gecko.svg"), drawing)
-        with Editor(PROGRAM, []) as editor:
+        with Editor([]) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             editor.drop(drawing, 700, 500)
             editor.wait(lambda s: s["pictured"] and s["tool"] == "pin", "the drawing and the pin tool", 60)
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "drawing-opened")
             editor.click(600, 410)
             editor.click(800, 668)
@@ -194,11 +193,11 @@ class EditorWindowTest(WindowCase):
             self.save_as(editor, scene)
             self.ask(editor, "ctrl+e")  # an SVG file is proposed
             out = os.path.join(self.work, "bent-bent.svg")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "drawing-export")
             editor.key("Return")
             editor.wait(lambda s: os.path.exists(out) and not s["exporting"], "the exported drawing", 60)
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "drawing-exported")
         expected = os.path.join(self.work, "expected.svg")
         subprocess.run([PROGRAM, "export", scene, "--format", "drawing", "--out", expected], check=True, stderr=subprocess.DEVNULL)
@@ -209,7 +208,7 @@ class EditorWindowTest(WindowCase):
         scene = self.caged((300, 200), [[20, 20], [280, 20], [280, 180], [20, 180]])
         subprocess.run(["convert", "-size", "300x200", "gradient:#203040-#506070", "-depth", "16", "-define", "png:bit-depth=16",
                         "-define", "png:color-type=2", os.path.join(self.work, "caged.png")], check=True)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the scene")
             editor.key("r")
             for name, depth in (("deep.png", 16), ("half.exr", 16), ("single.exr", 32)):
@@ -219,7 +218,7 @@ class EditorWindowTest(WindowCase):
                 editor.type(out)
                 editor.press_item("Depth")
                 editor.press_item(f"{depth} bits per color")
-                time.sleep(0.5)
+                editor.pause(0.5)
                 self.screenshot(editor, "export-" + name)
                 editor.key("Return")
                 editor.wait(lambda s: os.path.exists(out) and not s["exporting"] and not s["asking"], "the export", 120)
@@ -239,7 +238,7 @@ class EditorWindowTest(WindowCase):
         with open(scene, "w") as file:
             json.dump(content, file)
         options = {"glb": ["glb"], "tscn": ["godot"], "pc2": ["pc2"], "exr": ["stmap", "--time", "0"]}
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the scene")
             for extension, words in options.items():
                 out, expected = (os.path.join(self.work, name + "/bent." + extension) for name in ("window", "command"))
@@ -251,7 +250,7 @@ class EditorWindowTest(WindowCase):
                 if extension == "exr":  # otherwise, it is a picture
                     editor.press_item("Format")
                     editor.press_item("ST-map (OpenEXR)")
-                time.sleep(0.5)
+                editor.pause(0.5)
                 self.screenshot(editor, "export-" + extension)
                 editor.key("Return")
                 editor.wait(lambda s: os.path.exists(out) and not s["exporting"] and not s["asking"], "the export", 120)
@@ -263,7 +262,7 @@ class EditorWindowTest(WindowCase):
             editor.type(os.path.join(self.work, "window/small.glb"))
             editor.press_item("Full mesh")
             self.type_into(editor, "Per layer", "120")
-            time.sleep(3)
+            editor.pause(3)
             self.screenshot(editor, "export-small")
             editor.key("Return")
             editor.wait(lambda s: os.path.exists(os.path.join(self.work, "window/small.glb")) and not s["exporting"],
@@ -273,9 +272,9 @@ class EditorWindowTest(WindowCase):
             editor.press_item("Format")
             editor.press_item("Spine skeleton")
             editor.press_item("Choose...")
-            time.sleep(1)
+            editor.pause(1)
             editor.key("Escape")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.assertTrue(editor.state()["asking"])
             editor.press_item("Format")
             editor.press_item("Moving meshes (glTF)")
@@ -310,11 +309,11 @@ class EditorWindowTest(WindowCase):
 
     def test_opacity_and_blending_are_chosen_and_saved(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             left, top, right, bottom = editor.state()["items"]["Opacity"]
             editor.press(right - 30, (top + bottom) // 2)
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.key("ctrl+a")
             editor.type("40")
             editor.key("Return")
@@ -327,10 +326,11 @@ class EditorWindowTest(WindowCase):
         layer = load(path)["layers"][0]
         self.assertEqual((layer["opacity"], layer["blending"]), (0.4, "screen"))
 
+    @real_in_soak
     def test_a_picture_that_another_program_changes_is_read_again(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             editor.drag((10, 10), (60, 40))
             step = editor.wait(lambda s: s["modified"], "a pose")["step"]
@@ -341,7 +341,7 @@ class EditorWindowTest(WindowCase):
             self.assertEqual((state["step"], state["cage_points"]), (step, 4), "the cage and its pose stay")
             with open(os.path.join(self.work, "caged.png"), "w") as file:
                 file.write("half a pic")  # a program that is still writing
-            time.sleep(2.5)
+            editor.pause(2.5)
             self.wait_color(editor, (150, 100), GREEN, "the picture that could be read")
             self.plain("caged.png", BLUE)
             self.wait_color(editor, (150, 100), BLUE, "the next one")
@@ -355,9 +355,10 @@ class EditorWindowTest(WindowCase):
                        input=frames, check=True)
         return path
 
+    @real_in_soak
     def test_a_film_plays_as_a_picture(self):
         colors = [RED, GREEN, BLUE] * 8
-        with Editor(PROGRAM, [self.film(colors, 4)]) as editor:
+        with Editor([self.film(colors, 4)]) as editor:
             state = editor.wait(lambda s: s["pictured"] and s["shows_time"], "the film and its timeline")
             self.assertFalse(state["runs"])
             for k in (0, 1, 2, 3):
@@ -387,9 +388,10 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+z")
             self.wait_color(editor, (150, 100), colors[frame], "the whole film again")
 
+    @real_in_soak
     def test_the_bar_of_a_film_is_dragged(self):
         colors = [RED, GREEN, BLUE] * 8
-        with Editor(PROGRAM, [self.film(colors, 4)]) as editor:
+        with Editor([self.film(colors, 4)]) as editor:
             editor.wait(lambda s: s["pictured"] and s["shows_time"], "the film and its timeline")
             x, y = editor.item("ruler")
             row = editor.item("keys")[1]
@@ -455,7 +457,7 @@ class EditorWindowTest(WindowCase):
         heard = os.path.join(self.work, "heard.mp4")
         subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-f", "lavfi", "-i", "sine=frequency=440:duration=1", "-c:v",
                         "copy", "-c:a", "aac", heard], check=True)
-        with Editor(PROGRAM, [heard]) as editor:
+        with Editor([heard]) as editor:
             editor.wait(lambda s: s["pictured"] and s["shows_time"], "the film")
             self.ask(editor, "ctrl+e")
             editor.key("Return")
@@ -465,10 +467,11 @@ class EditorWindowTest(WindowCase):
                                    capture_output=True, text=True, check=True).stdout.split()
             self.assertEqual(sorted(kinds), ["audio", "video"])
 
+    @real_in_soak
     def test_numbered_pictures_play_as_a_film(self):
         for k, color in enumerate([RED, GREEN, BLUE]):
             self.plain(f"step-{k + 7:03d}.png", color)
-        with Editor(PROGRAM, [os.path.join(self.work, "step-008.png")]) as editor:
+        with Editor([os.path.join(self.work, "step-008.png")]) as editor:
             self.wait_color(editor, (150, 100), GREEN, "the picture alone")
             editor.press_item("Play as film")
             editor.wait(lambda s: s["shows_time"], "the timeline")
@@ -480,6 +483,7 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+z")
             self.wait_color(editor, (150, 100), GREEN, "the picture alone again")
 
+    @real
     def test_pictures_come_from_the_clipboard_and_go_there(self):
         there, copied = os.path.join(self.work, "there.png"), os.path.join(self.work, "copied.png")
         self.plain("there.png", GREEN, (120, 200))
@@ -488,7 +492,7 @@ class EditorWindowTest(WindowCase):
                               f'sleep 30 & esac\n')
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             self.by_palette(editor, "paste picture")
             editor.wait(lambda s: s["layers"] == 2, "the pasted layer")
@@ -508,7 +512,7 @@ class EditorWindowTest(WindowCase):
         chosen = self.plain("chosen.png", BLUE)
         log = os.path.join(self.work, "asked")
         self.program("zenity", f'echo "$@" > {log}; echo {chosen}\n')
-        with Editor(PROGRAM, []) as editor:
+        with Editor([]) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             editor.key("ctrl+o")
             editor.wait(lambda s: not s["empty"], "the chosen picture")
@@ -516,54 +520,55 @@ class EditorWindowTest(WindowCase):
                 self.assertIn("*.png", file.read())
             self.program("zenity", "exit 1\n")  # canceled
             editor.key("ctrl+o")
-            time.sleep(0.8)
+            editor.pause(0.8)
             editor.key("ctrl+n")
             editor.wait(lambda s: s["empty"], "a window that still responds")
 
+    @real
     def test_keys_are_changed_and_kept(self):
         scene = old_sample("giraffe")
         home = self.preferences(hints=False)
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             self.ask(editor, "F1")
             editor.type("checker")
             self.screenshot(editor, "keys")
             editor.key("Down")  # selects the only row
             editor.key("Return")
-            time.sleep(0.3)
+            editor.pause(0.3)
             self.screenshot(editor, "keys-waiting")
             editor.key("m")  # the key of the mesh view: pressing it once does not reassign it
-            time.sleep(0.3)
+            editor.pause(0.3)
             self.screenshot(editor, "keys-taken")
             editor.key("j")
-            time.sleep(0.3)
+            editor.pause(0.3)
             # The panel waits for a key again. A held key counts as one press, and Escape cancels.
             editor.key("Return")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.xdotool("keydown", "m")
-            time.sleep(1.2)
+            editor.pause(1.2)
             editor.xdotool("keyup", "m")
             editor.key("Escape")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.key("Escape")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.key("5")
-            time.sleep(0.3)
+            editor.pause(0.3)
             self.assertEqual(editor.state()["view"], "image", "the old key is free")
             before = self.screenshot(editor, "no-mesh")
             editor.key("m")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.assertGreater((numpy.abs(self.screenshot(editor, "mesh") - before).max(axis=2) > 20).sum(), 500)
             editor.key("j")
             editor.wait(lambda s: s["view"] == "checker", "the new key")
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             editor.key("j")
             editor.wait(lambda s: s["view"] == "checker", "the new key in the next session")
 
     def test_the_first_steps_are_shown_one_by_one_and_closed(self):
         home = self.preferences(native_dialogs=False)
-        with Editor(PROGRAM, [self.picture], home=home) as editor:
+        with Editor([self.picture], home=home) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")
             self.screenshot(editor, "start")
             editor.click(600, 420)
@@ -589,7 +594,7 @@ class EditorWindowTest(WindowCase):
 
     def test_a_held_key_stands_in_for_alt(self):
         scene = self.caged((300, 200), [[10, 10], [150, 5], [290, 10], [290, 190], [10, 190]])
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 5, "the scene")
             editor.move(150, 5)
             editor.xdotool("keydown", "q", pause=0.8)  # keys are not waited for, and machines may be busy
@@ -597,11 +602,12 @@ class EditorWindowTest(WindowCase):
             editor.xdotool("keyup", "q")
             editor.wait(lambda s: s["cage_points"] == 4, "a deleted point")
 
+    @real
     def test_a_press_acts_where_the_pointer_was(self):
         """A press acts where it happened, even if the pointer moves 20 pixels before the program reads it."""
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         self.plain("caged.png", RED)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             x, y = editor.pixel(290, 190)
             for drag in range(5):
@@ -620,24 +626,25 @@ class EditorWindowTest(WindowCase):
 
     def test_two_clicks_are_a_double_click_only_if_they_are_quick(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4 and s["tool"] == "select", "the scene")
             edge = editor.pixel(150, 190)
             editor.xdotool("mousemove", *edge)
             for _ in range(2):
                 editor.press(*edge)
-                time.sleep(3)  # the window sleeps, so no frame tells how much time has passed
+                editor.pause(3)  # the window sleeps, so no frame tells how much time has passed
             self.assertEqual(editor.state()["cage_points"], 4)
             editor.xdotool("click", "--repeat", 2, "--delay", 60, 1)
             editor.wait(lambda s: s["cage_points"] == 5, "another point")
 
+    @real_in_soak
     def test_before_and_after_lie_side_by_side(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])
         half = numpy.zeros((200, 300, 4), numpy.uint8)
         half[:, :] = RED + (255,)
         half[100:, :] = BLUE + (255,)  # the lower half
         Image.fromarray(half).save(os.path.join(self.work, "caged.png"))
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             editor.key("ctrl+a")
             for _ in range(4):
@@ -669,7 +676,7 @@ class EditorWindowTest(WindowCase):
 
     def test_an_export_shows_what_it_will_be_and_repeats(self):
         target = os.path.join(self.work, "out.png")
-        with Editor(PROGRAM, [self.red_scene()]) as editor:
+        with Editor([self.red_scene()]) as editor:
             self.move_right(editor, 1)
             self.by_palette(editor, "background: original")
             self.ask(editor, "ctrl+e")
@@ -688,13 +695,13 @@ class EditorWindowTest(WindowCase):
             self.ask(editor, "ctrl+e")
             editor.press_item("Format")
             editor.press_item("JPEG picture")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.key("Return")
             editor.wait(lambda s: os.path.exists(os.path.join(self.work, "out.jpg")), "the export as JPEG")
 
     def test_what_is_exported_is_chosen_without_a_mouse(self):
         target = os.path.join(self.work, "out.png")
-        with Editor(PROGRAM, [self.red_scene()]) as editor:
+        with Editor([self.red_scene()]) as editor:
             self.move_right(editor, 4)
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
@@ -703,11 +710,11 @@ class EditorWindowTest(WindowCase):
                 editor.key("Down")
             for key in ("Return", "Down", "Return"):  # the second choice: the picture's rectangle
                 editor.key(key)
-                time.sleep(0.2)
+                editor.pause(0.2)
             editor.key("Down")  # background
             for key in ("Return", "Down", "Down", "Return"):  # the third choice: a color
                 editor.key(key)
-                time.sleep(0.2)
+                editor.pause(0.2)
             self.screenshot(editor, "export-chosen")
             for key in ("Down", "Down", "Down", "Right", "Return"):  # past the color, to the button at the right
                 editor.key(key)
@@ -719,11 +726,11 @@ class EditorWindowTest(WindowCase):
             self.assertNotEqual(tuple(image[100, 20, :3]), RED, "where the picture was")
             self.assertEqual(tuple(image[100, 150, :3]), RED)
             editor.key("ctrl+e")
-            time.sleep(0.8)
+            editor.pause(0.8)
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "out.bmp"))
             editor.key("Return")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.assertTrue(editor.state()["asking"], "no such format")
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "out.jpg"))
@@ -733,9 +740,9 @@ class EditorWindowTest(WindowCase):
         self.assertFalse(any(name.startswith("out.bmp") for name in os.listdir(self.work)))
 
     def test_panels_take_the_keys(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.wait(lambda s: s["pictured"], "the picture")
-            time.sleep(0.4)
+            editor.pause(0.4)
             editor.key("F6")
             editor.wait(lambda s: s["in_panel"], "the suggestions with the keyboard focus")
             for key in ("Down", "Right", "Return"):  # Place
@@ -767,60 +774,62 @@ class EditorWindowTest(WindowCase):
             editor.key("ctrl+a")
             editor.wait(lambda s: s["selected"] == 4, "everything")
             editor.key("shift+F10")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.key("Escape")
-            time.sleep(0.3)
+            editor.pause(0.3)
             self.assertEqual(editor.state()["selected"], 4, "Escape only closed the menu")
             editor.key("F10")
-            time.sleep(0.4)
+            editor.pause(0.4)
             self.screenshot(editor, "menu")
             for key in ("Down", "Up", "Return"):  # the first menu's last entry: Quit
                 editor.key(key)
-                time.sleep(0.2)
+                editor.pause(0.2)
             editor.wait(lambda s: s["asking"], "the question about unsaved work")
             editor.key("Escape")
             editor.wait(lambda s: not s["asking"], "the answer")
             editor.key("F10")
             for key in ("Right", "Right", "Right"):  # Edit, Layer, Cage
                 editor.key(key)
-                time.sleep(0.2)
+                editor.pause(0.2)
             self.screenshot(editor, "menu-cage")
             editor.key("Down")
-            time.sleep(0.2)
+            editor.pause(0.2)
             editor.key("Return")  # its first enabled entry: Make from picture
             editor.wait(lambda s: s["cage_points"] > 4, "a cage from the picture")
 
+    @real
     def test_looks_are_chosen_by_name(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.wait(lambda s: s["pictured"] and s["theme"] == "dark" and s["scale"] == 1, "the picture")
             menu = (slice(2, 20), slice(400, 500))
             self.assertLess(self.screenshot(editor, "dark")[menu].mean(), 90)
             self.by_palette(editor, "theme light")
             editor.wait(lambda s: s["theme"] == "light", "the light theme")
-            time.sleep(0.3)
+            editor.pause(0.3)
             self.assertGreater(self.screenshot(editor, "light")[menu].mean(), 180)
             self.by_palette(editor, "theme contrast")
             editor.wait(lambda s: s["theme"] == "contrast", "high contrast")
-            time.sleep(0.3)
+            editor.pause(0.3)
             self.assertLess(self.screenshot(editor, "contrast")[menu].mean(), 10)
             self.by_palette(editor, "interface 200")
             editor.wait(lambda s: s["scale"] == 2, "twice the size")
             self.screenshot(editor, "contrast-200")
 
+    @real_in_soak
     def test_a_missing_picture_is_found(self):
         scene = self.red_scene()
         away = os.path.join(self.work, "away")
         os.mkdir(away)
         shutil.move(os.path.join(self.work, "caged.png"), os.path.join(away, "renamed.png"))
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4 and not s["pictured"], "the scene without its picture")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "missing")
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "out.png"))
             editor.key("Return")
-            time.sleep(0.8)
+            editor.pause(0.8)
             self.assertFalse(os.path.exists(os.path.join(self.work, "out.png")), "an export without the picture")
             editor.key("Escape")
             self.by_palette(editor, "missing")
@@ -834,16 +843,16 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: not s["modified"], "the saved scene")
             self.assertEqual(load(scene)["image"]["file"], "away/renamed.png")
         shutil.move(os.path.join(away, "renamed.png"), os.path.join(self.work, "kept.png"))
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4 and not s["pictured"], "the scene without its picture")
-            time.sleep(1.2)
+            editor.pause(1.2)
             shutil.move(os.path.join(self.work, "kept.png"), os.path.join(away, "renamed.png"))
             editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture that is back")
         layer = {key: load(scene)[key] for key in ("image", "cage")}
         with open(scene, "w") as file:  # a picture can also be found for a locked layer
             json.dump({"format": "holomorph", "version": 2, "edited": 0, "layers": [dict(layer, locked=True)]}, file)
         shutil.move(os.path.join(away, "renamed.png"), os.path.join(self.work, "kept.png"))
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["locked"] and not s["pictured"], "the locked layer without its picture")
             self.by_palette(editor, "missing")
             editor.wait(lambda s: s["asking"], "the question where the picture is")
@@ -881,7 +890,7 @@ class EditorWindowTest(WindowCase):
         os.mkdir(folder)
         scene = self.square_scene(folder, "../gecko.png")
         home = self.home_of_tests()
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["question"] == "Files from other folders", "the question")
             self.screenshot(editor, "elsewhere")
             editor.key("Return")  # leaves the picture out
@@ -889,20 +898,20 @@ class EditorWindowTest(WindowCase):
             self.screenshot(editor, "withheld")
             editor.key("ctrl+q")
             editor.process.wait(timeout=10)
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["question"] == "Files from other folders", "the question again")
             editor.press_item("Show them")
             editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture")
             editor.key("ctrl+q")
             editor.process.wait(timeout=10)
-        with Editor(PROGRAM, [scene], home=home) as editor:  # the answer is remembered
+        with Editor([scene], home=home) as editor:  # the answer is remembered
             editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture")
-        with Editor(PROGRAM, ["--allow-outside", scene]) as editor:
+        with Editor(["--allow-outside", scene]) as editor:
             editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture without a question")
 
     def test_a_scene_that_another_program_changes_is_read_again(self):
         scene = self.square_scene(self.work, "gecko.png")
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             before = editor.wait(lambda s: s["pictured"] and not s["busy"], "the scene")
             editor.key("plus")
             zoomed = editor.wait(lambda s: s["zoom"] > before["zoom"], "another view")
@@ -914,7 +923,7 @@ class EditorWindowTest(WindowCase):
             editor.key("Right")
             editor.wait(lambda s: s["modified"], "an edit")
             self.change(scene, 250)
-            time.sleep(1.5)
+            editor.pause(1.5)
             self.assertTrue(editor.state()["modified"])
             editor.key("ctrl+s")
             editor.wait(lambda s: s["question"] == "Changed by another program", "the question")
@@ -952,16 +961,16 @@ class EditorWindowTest(WindowCase):
     def test_unsaved_work_is_offered_where_its_scene_is_opened(self):
         scene = self.square_scene(self.work, "gecko.png")
         home = self.home_of_tests()
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["pictured"] and not s["busy"], "the scene")
             editor.key("ctrl+a")
             for _ in range(3):
                 editor.key("Right")
             editor.wait(lambda s: s["history"] == 2 or s["modified"], "an edit")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.process.kill()
             editor.process.wait()
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["question"] == "Unsaved work", "the offer")
             self.screenshot(editor, "offered")
             editor.key("Return")
@@ -972,7 +981,7 @@ class EditorWindowTest(WindowCase):
             self.assertEqual(pose[0][0][0], 103)
             editor.key("ctrl+q")
             editor.process.wait(timeout=10)
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["pictured"] and not s["asking"], "no offer")
 
     def test_no_preferences_end_the_window(self):
@@ -982,17 +991,17 @@ class EditorWindowTest(WindowCase):
             os.makedirs(os.path.join(home, "config/holomorph"), exist_ok=True)
             with open(os.path.join(home, "config/holomorph/preferences.json"), "w") as file:
                 file.write(text)
-            with Editor(PROGRAM, [], home=home) as editor:
+            with Editor([], home=home) as editor:
                 editor.wait(lambda s: s["empty"], "the welcome page")
                 editor.key("F10")
                 editor.key("Down")
-                time.sleep(0.2)
+                editor.pause(0.2)
                 self.assertIsNone(editor.process.poll(), text)
 
     def test_an_export_is_cancelled(self):
         fern = os.path.join(SOURCE, "assets/fern.json")
         target = os.path.join(self.work, "film.webp")
-        with Editor(PROGRAM, [fern]) as editor:
+        with Editor([fern]) as editor:
             editor.wait(lambda s: s["keys"] > 0, "the fern")
             self.by_palette(editor, "export film")
             editor.wait(lambda s: s["asking"], "the dialog")
@@ -1000,11 +1009,11 @@ class EditorWindowTest(WindowCase):
             editor.type(target)
             editor.key("Return")
             editor.wait(lambda s: s["exporting"], "the export")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "exporting")
             editor.key("Escape")
             editor.wait(lambda s: not s["exporting"], "the end of the export")
-            time.sleep(1.5)
+            editor.pause(1.5)
             self.assertFalse(os.path.exists(target))
             self.assertEqual(os.listdir(self.work), ["gecko.png"], "no unfinished file is left")
 

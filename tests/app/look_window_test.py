@@ -4,14 +4,12 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 
 import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
-from driver import Editor  # noqa: E402
+from case import SOURCE, Editor, WindowCase, real, real_in_soak, load, run_tests  # noqa: E402
 
 SQUARE = [[60, 60], [340, 60], [340, 240], [60, 240]]
 
@@ -50,18 +48,20 @@ class LookWindowTest(WindowCase):
         pose[0], pose[5] = rest[5], rest[0]
         return self.scene_with(picture, cage={"rest": rest, "pose": pose}, method={"id": "mean_value"})
 
+    @real_in_soak
     def test_only_folds_that_can_be_seen_are_alarms(self):
-        with Editor(PROGRAM, [self.folded(True)]) as editor:
+        with Editor([self.folded(True)]) as editor:
             editor.wait(lambda s: s["folds"], "the visible fold")
             self.assertGreater(share(self.state_text(editor, "visible-fold"), "FF8A80", 30), 0.01, "red in the status bar")
-        with Editor(PROGRAM, [self.folded(False)]) as editor:
+        with Editor([self.folded(False)]) as editor:
             editor.wait(lambda s: s["pictured"], "the picture")
-            time.sleep(1)
+            editor.pause(1)
             self.assertFalse(editor.state()["folds"])
             self.assertEqual(share(self.state_text(editor, "invisible-fold"), "FF8A80", 30), 0)
 
+    @real
     def test_themes_have_the_colors_of_the_table(self):
-        with Editor(PROGRAM, [os.path.join(SOURCE, "assets", "gecko.json")]) as editor:
+        with Editor([os.path.join(SOURCE, "assets", "gecko.json")]) as editor:
             editor.wait(lambda s: s["status"] == "certified", "the map")
             for name, panel, canvas in (("dark", "25262A", "17181B"), ("light", "F6F6F8", "D3D5DA"), ("high contrast", "000000", "000000")):
                 self.by_palette(editor, "theme: " + name)
@@ -70,18 +70,19 @@ class LookWindowTest(WindowCase):
                 self.assertGreater(share(image[:, 1100:], panel, 1), 0.3, name)
                 self.assertGreater(share(image, canvas, 1), 0.05, name)
 
+    @real_in_soak
     def test_the_cage_hides_behind_a_posed_body_until_the_pointer_comes(self):
         cage, pose = [[p] for p in SQUARE], [[p] for p in [[60, 60], [340, 60], [360, 250], [80, 240]]]
         picture = Image.new("RGBA", (400, 300), (0, 0, 0, 0))
         picture.paste((200, 180, 40, 255), (100, 100, 300, 200))
         path = self.scene_with(picture, cage={"rest": cage, "pose": pose}, method={"id": "cage"})
-        with Editor(PROGRAM, [path]) as editor:
+        with Editor([path]) as editor:
             editor.wait(lambda s: s["status"] == "exact", "the map")
             editor.xdotool("mousemove", 1300, 880)
-            time.sleep(0.4)
+            editor.pause(0.4)
             away = self.canvas(editor, "cage-at-rest")
             editor.move(340, 62)
-            time.sleep(0.4)
+            editor.pause(0.4)
             near = self.canvas(editor, "cage-hovered")
             green = lambda image: ((image[:, :, 1] > 190) & (image[:, :, 0] < 90) & (image[:, :, 2] < 200)).sum()  # noqa: E731
             self.assertGreater(green(near), 5 * max(green(away), 20))
@@ -89,24 +90,25 @@ class LookWindowTest(WindowCase):
             for color in ("3A3C41", "404247"):
                 self.assertGreater(share(away, color, 2), 0.02)
 
+    @real
     def test_the_welcome_page_says_why_a_file_does_not_open(self):
         bad = os.path.join(self.work, "bad.png")
         with open(bad, "w") as file:
             file.write("not a picture")
-        with Editor(PROGRAM, []) as editor:
+        with Editor([]) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             before = self.screenshot(editor, "welcome")
             editor.drop(bad, 700, 400)
-            time.sleep(1.5)
+            editor.pause(1.5)
             after = self.screenshot(editor, "welcome-complains")
             self.assertGreater(share(after, "FF8A80", 30) - share(before, "FF8A80", 30), 2e-5, "a sign in the color of errors")
 
     def test_menus_are_short_and_begin_with_what_is_used_most(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.wait(lambda s: s["pictured"], "the picture")
             for menu, first in (("File", ["New", "Open...", "Open recent", "Save"]), ("Edit", ["Undo", "Redo"])):
                 editor.press_item("Menu: " + menu)
-                time.sleep(0.4)
+                editor.pause(0.4)
                 self.screenshot(editor, "menu-" + menu)
                 names = {name[6:]: box for name, box in editor.state()["items"].items() if name.startswith("Menu: ") and box[1] > 33}
                 order = sorted(names, key=lambda name: names[name][1])
@@ -123,29 +125,30 @@ class LookWindowTest(WindowCase):
         os.makedirs(home + "/config/holomorph")
         with open(home + "/config/holomorph/preferences.json", "w") as file:
             json.dump({"hints": False, "native_dialogs": False}, file)
-        with Editor(PROGRAM, [os.path.join(folder, "b.png")], home=home) as editor:
+        with Editor([os.path.join(folder, "b.png")], home=home) as editor:
             editor.wait(lambda s: s["pictured"], "the picture")
             self.ask(editor, "ctrl+o")
-            time.sleep(0.8)
+            editor.pause(0.8)
             self.screenshot(editor, "file-dialog")
             items = editor.state()["items"]
             self.assertIn("File: a.png", items)
             self.assertTrue([name for name in items if name.startswith("Place: ")])
             self.assertLess(items["File: a.png"][1], items["File: b.png"][1])
             editor.press_item("Sort: Name")
-            time.sleep(0.4)
+            editor.pause(0.4)
             items = editor.state()["items"]
             self.assertGreater(items["File: a.png"][1], items["File: b.png"][1], "sorted the other way")
             editor.key("Escape")
 
+    @real
     def test_a_fitted_view_stays_fitted_when_the_window_grows(self):
-        with Editor(PROGRAM, [self.picture], size="1900x1200") as editor:
+        with Editor([self.picture], size="1900x1200") as editor:
             before = editor.wait(lambda s: s["pictured"], "the picture")
             window = subprocess.run(["xdotool", "search", "--pid", str(editor.process.pid), "--name", "Holomorph"],
                                     env=editor.environment, capture_output=True, text=True).stdout.split()[-1]
             editor.xdotool("windowsize", window, 1880, 1180)
             editor.wait(lambda s: s["width"] > before["width"] + 200, "the larger canvas")
-            time.sleep(0.5)
+            editor.pause(0.5)
             after = editor.state()
             self.assertGreater(after["zoom"], 1.15 * before["zoom"])
             self.screenshot(editor, "grown")
@@ -159,9 +162,9 @@ class LookWindowTest(WindowCase):
         pose = [[[x + 150, y]] for [[x, y]] in rest]
         path = self.scene_with(picture, cage={"rest": rest, "pose": pose}, method={"id": "cage"})
         target = os.path.join(self.work, "out.png")
-        with Editor(PROGRAM, [path]) as editor:
+        with Editor([path]) as editor:
             editor.wait(lambda s: s["status"] == "exact", "the map")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "soft-edge")
             self.ask(editor, "ctrl+e")
             editor.press_item("Crop to filled area")
@@ -180,7 +183,7 @@ class LookWindowTest(WindowCase):
         pose = [[[60, 60]], [[340, 60]], [[340, 240]], [[90, 270]]]
         picture = Image.new("RGBA", (400, 300), (90, 160, 90, 255))
         path = self.scene_with(picture, cage={"rest": cage, "pose": pose}, method={"id": "cage"})
-        with Editor(PROGRAM, [path]) as editor:
+        with Editor([path]) as editor:
             editor.wait(lambda s: s["status"] == "exact", "the map")
             editor.key("Tab")
             editor.wait(lambda s: s["posture"] == "rest", "the rest shape")
@@ -201,9 +204,9 @@ class LookWindowTest(WindowCase):
         path = os.path.join(self.work, "rigid.json")
         with open(path, "w") as file:
             json.dump(scene, file)
-        with Editor(PROGRAM, [path]) as editor:
+        with Editor([path]) as editor:
             state = editor.wait(lambda s: s["pictured"] and s["status"] != "none", "the map", 30)
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "rigid-and-smooth")
             state = editor.state()
             self.assertFalse(state["folds"])

@@ -11,8 +11,7 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, WindowCase, load, run_tests  # noqa: E402
-from driver import Editor  # noqa: E402
+from case import SOURCE, Editor, WindowCase, real, real_in_soak, load, run_tests  # noqa: E402
 
 BODY, LEG, HEAD = (600, 410), (800, 668), (250, 270)  # on the gecko
 
@@ -24,11 +23,11 @@ class ProductWindowTest(WindowCase):
         return load(path)
 
     def test_four_actions_bend_a_picture(self):
-        with Editor(PROGRAM, []) as editor:
+        with Editor([]) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             editor.drop(self.picture, 700, 500)
             editor.wait(lambda s: s["pictured"] and s["tool"] == "pin", "the dropped picture and the pin tool")
-            time.sleep(0.5)
+            editor.pause(0.5)
             editor.click(*BODY)
             editor.wait(lambda s: s["pins"] == 1 and s["method"] == "puppet", "a pin in a puppet")
             editor.click(*LEG)
@@ -44,7 +43,7 @@ class ProductWindowTest(WindowCase):
         self.assertGreater(pins[2]["pose"][1] - pins[2]["rest"][1], 45, "the drag moves the pin that its press has set")
 
     def test_ctrl_drags_the_radius_of_the_held_disk(self):
-        with Editor(PROGRAM, [os.path.join(SOURCE, "assets", "gecko.json")]) as editor:
+        with Editor([os.path.join(SOURCE, "assets", "gecko.json")]) as editor:
             state = editor.wait(lambda s: s["status"] == "certified", "the map")
             place = (600, 415)  # the pin with a rotation
             ring = 34 * state["scale"] / state["zoom"]
@@ -61,7 +60,7 @@ class ProductWindowTest(WindowCase):
             self.assertEqual(pin["angle"], 0.05, "the rotation stays")
 
     def test_a_change_of_the_method_keeps_the_handles(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.wait(lambda s: s["pictured"], "the picture")
             for place in (BODY, LEG):
                 editor.click(*place)
@@ -70,7 +69,7 @@ class ProductWindowTest(WindowCase):
             before = self.saved(editor, "puppet.json")
             editor.press_item("Elastic")
             editor.wait(lambda s: s["method"] != "puppet", "another method")
-            time.sleep(0.3)
+            editor.pause(0.3)
             self.screenshot(editor, "elastic")
             after = self.saved(editor, "elastic.json")
             for old, new in zip(before["pins"], after["pins"]):
@@ -92,11 +91,11 @@ class ProductWindowTest(WindowCase):
             self.assertIn("Puppet", editor.state()["items"], "the section stays open")
 
     def test_panels_stay_in_place(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.wait(lambda s: s["pictured"], "the picture")
 
             def places():
-                time.sleep(0.4)
+                editor.pause(0.4)
                 state = editor.state()
                 names = [name for name in state["items"] if name.startswith(("section ", "tool.", "layer.", "view."))]
                 return {name: state["items"][name] for name in names} | {
@@ -138,7 +137,7 @@ class ProductWindowTest(WindowCase):
         return path
 
     def test_the_timeline_edits_keys_of_several_layers(self):
-        with Editor(PROGRAM, [self.two_ferns()]) as editor:
+        with Editor([self.two_ferns()]) as editor:
             editor.wait(lambda s: s["pictured"] and "keys" in s["items"], "the timeline")
             left, top, right, bottom = editor.state()["items"]["keys"]
             width, row = right - left - 32, (bottom - top) / 2  # the ruler shows 2.2 s
@@ -192,6 +191,7 @@ class ProductWindowTest(WindowCase):
             drag(at(0.5, 0), at(1.25, 0), ["ctrl"])
             self.assertEqual(times("copied.json"), [[0, 0.5, 2], [0, 0.5, 1.25, 2]])
 
+    @real_in_soak
     def test_a_hat_follows_the_pin_that_was_clicked(self):
         Image.new("RGBA", (80, 60), (230, 30, 30, 255)).save(os.path.join(self.work, "hat.png"))
         shutil.copy(os.path.join(SOURCE, "assets/gecko.png"), self.work)
@@ -203,16 +203,16 @@ class ProductWindowTest(WindowCase):
         path = os.path.join(self.work, "hat.json")
         with open(path, "w") as file:
             json.dump({"format": "holomorph", "version": 2, "layers": [dict(body, name="gecko"), hat], "edited": 1}, file)
-        with Editor(PROGRAM, [path]) as editor:
+        with Editor([path]) as editor:
             editor.wait(lambda s: s["pictured"] and not s["moving"], "the scene")
-            time.sleep(1)
+            editor.pause(1)
             pin = 5  # on the head
             head = body["pins"][pin].get("pose", body["pins"][pin]["rest"])
             editor.press_item("attach")
             editor.wait(lambda s: s["tool"] == "attach", "the tool")
             for _ in range(20):  # until the map of the other layer is ready
                 editor.click(*head)
-                time.sleep(1)
+                editor.pause(1)
                 if editor.state()["tool"] == "select":
                     break
             editor.wait(lambda s: s["tool"] == "select" and s["modified"], "the attachment")
@@ -223,7 +223,7 @@ class ProductWindowTest(WindowCase):
             editor.wait(lambda s: s["edited_layer"] == 0, "the gecko")
             editor.drag(head, (head[0] - 40, head[1] - 120))
             editor.wait(lambda s: s["modified"] and not s["gesture"], "the bent gecko")
-            time.sleep(0.5)
+            editor.pause(0.5)
             after = self.screenshot(editor, "carried-hat")
             # The hat is red. It has moved with the head.
             red = lambda image: numpy.argwhere((image[:, :1000, 0] > 180) & (image[:, :1000, 1] < 90)).mean(axis=0)  # noqa: E731
@@ -248,18 +248,19 @@ class ProductWindowTest(WindowCase):
             json.dump(scene, file)
         return path
 
+    @real
     def test_a_slow_scene_shows_its_last_picture_until_the_first_answer(self):
         path = self.slow_scene()
         home = tempfile.mkdtemp(dir=self.work)
         kept = os.path.join(home, "state", "holomorph", "pictures")
-        with Editor(PROGRAM, [path], home=home) as editor:
+        with Editor([path], home=home) as editor:
             state = editor.wait(lambda s: s["pictured"] and s["status"] != "none" and not s["last_picture"], "the first answer", 60)
             end = time.time() + 20
             while not (os.path.exists(kept) and any(name.endswith(".box") for name in os.listdir(kept))):
                 self.assertLess(time.time(), end, "a picture is kept")
-                time.sleep(0.1)
+                editor.pause(0.1)
             solved = self.screenshot(editor, "solved")
-        with Editor(PROGRAM, [path], home=home, settles=False) as editor:
+        with Editor([path], home=home, settles=False) as editor:
             seen, end = None, time.time() + 60
             while time.time() < end:
                 state = editor.state()

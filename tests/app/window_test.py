@@ -12,13 +12,13 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, WindowCase, load, old_sample, run_tests  # noqa: E402
-from driver import Editor  # noqa: E402
+from case import PROGRAM, SOURCE, Editor, WindowCase, real, real_in_soak, load, old_sample, run_tests  # noqa: E402
 
 
 class WindowTest(WindowCase):
+    @real
     def test_draw_drag_pin_undo_save_reopen(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             state = editor.wait(lambda s: not s["empty"], "the picture")
             self.assertEqual(state["tool"], "pin")
             editor.key("p")
@@ -61,13 +61,13 @@ class WindowTest(WindowCase):
             self.assertLess(abs(pin["pose"][0] - 560) + abs(pin["pose"][1] - 450), 4 * grain)
             self.assertEqual(scene["method"]["id"], "pins")
 
-        with Editor(PROGRAM, [path]) as editor:
+        with Editor([path]) as editor:
             state = editor.wait(lambda s: s["cage_points"] == 5, "the reopened scene")
             self.assertFalse(state["modified"])
             self.assertEqual(state["pins"], 1)
 
     def test_cage_from_picture_and_editing(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")
             # The first suggested action, run by its name from the palette.
             self.ask(editor, "ctrl+shift+p")
@@ -108,7 +108,7 @@ class WindowTest(WindowCase):
 
     def test_structure_edits_keep_the_pose(self):
         scene = old_sample("giraffe")
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             before = load(scene)
             editor.wait(lambda s: s["cage_points"] == len(before["cage"]["rest"]), "the giraffe")
             # The longest posed edge leaves room between its handles.
@@ -142,7 +142,7 @@ class WindowTest(WindowCase):
         with open(scene, "w") as file:
             json.dump({"format": "holomorph", "version": 1, "image": {"file": "gecko.png"},
                        "cage": {"rest": [[[0, 0]], [[1100, 0]], [[1100, 900]], [[0, 900]]]}}, file)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the square")
             editor.key("Tab")
             editor.wait(lambda s: s["posture"] == "rest", "the rest")
@@ -153,15 +153,16 @@ class WindowTest(WindowCase):
             self.assertFalse(state["error"])
             self.screenshot(editor, "crossing-refused")
 
+    @real
     def test_kill_loses_nothing_and_is_recovered(self):
         home = tempfile.mkdtemp(prefix="holomorph-home-")
         scene = old_sample("gecko")
-        with Editor(PROGRAM, [scene], home=home) as editor:
+        with Editor([scene], home=home) as editor:
             state = editor.wait(lambda s: s["cage_points"] > 0, "the gecko")
             x, y = load(scene)["cage"]["pose"][3][0]
             editor.drag((x, y), (x + 40, y + 30))
             editor.wait(lambda s: s["modified"], "an edit")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.process.kill()
             editor.process.wait()
         folder = home + "/state/holomorph/autosave"
@@ -170,7 +171,7 @@ class WindowTest(WindowCase):
         kept = load(os.path.join(folder, saved[0]))
         self.assertNotEqual(kept["cage"]["pose"][3], load(scene)["cage"]["pose"][3])
         self.assertEqual(kept["cage"]["pose"][4], load(scene)["cage"]["pose"][4])
-        with Editor(PROGRAM, [], home=home) as editor:
+        with Editor([], home=home) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             self.screenshot(editor, "welcome-recovery")
             editor.press_item("Recover")
@@ -183,7 +184,7 @@ class WindowTest(WindowCase):
 
     def test_samples_are_copies(self):
         giraffe = load(os.path.join(SOURCE, "assets/giraffe.json"))
-        with Editor(PROGRAM, []) as editor:
+        with Editor([]) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             editor.press_item("Giraffe")
             editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe")
@@ -191,7 +192,7 @@ class WindowTest(WindowCase):
             editor.key("Up")
             editor.wait(lambda s: s["modified"], "an edit")
             editor.key("ctrl+s")  # asks for a name
-            time.sleep(0.5)
+            editor.pause(0.5)
             path = os.path.join(self.work, "mine.json")
             editor.key("ctrl+a")
             editor.type(path)
@@ -202,7 +203,7 @@ class WindowTest(WindowCase):
                                              os.path.join(SOURCE, "assets/giraffe.png")))
 
     def test_recent_files_and_new(self):
-        with Editor(PROGRAM, [os.path.join(SOURCE, "assets/giraffe.json")]) as editor:
+        with Editor([os.path.join(SOURCE, "assets/giraffe.json")]) as editor:
             giraffe = load(os.path.join(SOURCE, "assets/giraffe.json"))
             editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe")
             editor.key("ctrl+n")
@@ -215,20 +216,20 @@ class WindowTest(WindowCase):
         target = os.path.join(self.work, "out.png")
         with open(target, "w") as file:
             file.write("precious")
-        with Editor(PROGRAM, [old_sample("giraffe")]) as editor:
+        with Editor([old_sample("giraffe")]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(target)
             editor.key("Return")
-            time.sleep(1.0)
+            editor.pause(1.0)
             with open(target) as file:
                 self.assertEqual(file.read(), "precious")
             self.screenshot(editor, "export-replace")
             editor.key("Return")
             end = time.time() + 20
             while os.path.getsize(target) < 100 and time.time() < end:
-                time.sleep(0.05)
+                editor.pause(0.05)
             subprocess.run([PROGRAM, "render", old_sample("giraffe"), "--out",
                             os.path.join(self.work, "render.png")], check=True, stdout=subprocess.DEVNULL)
             exported = numpy.asarray(Image.open(target))
@@ -236,17 +237,18 @@ class WindowTest(WindowCase):
             self.assertEqual(exported.shape, rendered.shape)
             # The editor's operators are in single precision.
             self.assertLessEqual(numpy.abs(exported.astype(int) - rendered).max(), 2)
+            editor.wait(lambda s: not s["exporting"], "the end of the export")
             os.remove(target)
             editor.key("ctrl+shift+e")  # again, without a question
             end = time.time() + 10
             while not os.path.exists(target) and time.time() < end:
-                time.sleep(0.05)
+                editor.pause(0.05)
             self.assertTrue(os.path.exists(target))
 
     def test_a_pin_that_would_fold_the_picture_is_held_back(self):
         path = shutil.copy(old_sample("octopus"), self.work)
         shutil.copy(os.path.join(SOURCE, "assets/octopus.png"), self.work)
-        with Editor(PROGRAM, [path]) as editor:
+        with Editor([path]) as editor:
             editor.wait(lambda s: s["cage_points"] == 48, "the octopus")
             pin = load(path)["pins"][4]["pose"]
             editor.drag(tuple(pin), (330, 620), steps=12)  # an arm through the body
@@ -280,9 +282,9 @@ class WindowTest(WindowCase):
             with open(paths[name], "w") as file:
                 file.write(f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{d}"/></svg>')
         mask = os.path.join(SOURCE, "assets/mask.obj")
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.drop(mask, 400, 400)  # a surface needs a cage, and a message says so
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "surface-without-cage")
             self.assertEqual((editor.state()["cage_points"], editor.state()["outline_points"]), (0, 0))
             editor.drop(paths["cage"], 400, 400)
@@ -302,7 +304,7 @@ class WindowTest(WindowCase):
         pose[1], pose[7] = pose[7], pose[1]
         with open(scene, "w") as file:
             json.dump(values, file)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             s = editor.wait(lambda s: s["folds"], "the fold")
             self.screenshot(editor, "folded")
             editor.press_item("fold state")
@@ -325,7 +327,7 @@ class WindowTest(WindowCase):
     def test_projections_of_other_methods_are_compared(self):
         shutil.copy(old_sample("octopus"), self.work)
         shutil.copy(os.path.join(SOURCE, "assets/octopus.png"), self.work)
-        with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
+        with Editor([os.path.join(self.work, "octopus.json")]) as editor:
             self.compare_methods(editor, rows=6)
             self.assertAlmostEqual(editor.state()["boundary_turns"], 1, places=2)
             self.screenshot(editor, "compared")
@@ -333,7 +335,7 @@ class WindowTest(WindowCase):
     def test_methods_with_pins_are_compared(self):
         for name in ("octopus.json", "octopus.png"):
             shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
-        with Editor(PROGRAM, [os.path.join(self.work, "octopus.json")]) as editor:
+        with Editor([os.path.join(self.work, "octopus.json")]) as editor:
             self.compare_methods(editor, rows=5)
             self.screenshot(editor, "compared-pins")
 
@@ -346,7 +348,7 @@ class WindowTest(WindowCase):
         editor.wait(lambda s: s["cage_points"] == 4 and not s["busy"], "a cage")
 
     def test_the_picture_follows_a_drawn_outline(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             self.draw_square_cage(editor)
             editor.key("u")
             around = [(400 + 330 * math.cos(t / 24 * 2 * math.pi), 400 + 220 * math.sin(t / 24 * 2 * math.pi))
@@ -374,6 +376,7 @@ class WindowTest(WindowCase):
         self.assertIn("met to", report["note"])
         self.assertNotIn("folds", report["note"])
 
+    @real
     def test_a_picture_goes_onto_a_surface_and_from_there_onto_another(self):
         mask, leaf = (os.path.join(SOURCE, "assets", name) for name in ("mask.obj", "leaf.obj"))
         textured, scene = os.path.join(self.work, "on mask.obj"), os.path.join(self.work, "surface.json")
@@ -383,12 +386,12 @@ class WindowTest(WindowCase):
             editor.type(text)
             editor.key("Return")
             if path:
-                time.sleep(0.8)
+                editor.pause(0.8)
                 editor.key("ctrl+a")
                 editor.type(path)
                 editor.key("Return")
 
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             self.draw_square_cage(editor)
             whole = editor.state()
             editor.drop(mask, 400, 400)
@@ -431,7 +434,7 @@ class WindowTest(WindowCase):
             action(editor, "textured surface", textured)
             end = time.time() + 20
             while not os.path.exists(textured) and time.time() < end:
-                time.sleep(0.1)
+                editor.pause(0.1)
             lines = open(textured).read().split("\n")
             uv = numpy.array([[float(x) for x in line.split()[1:]] for line in lines if line.startswith("vt ")])
             self.assertTrue(len(uv) > 1000 and uv.min() > 0 and uv.max() < 1)
@@ -443,7 +446,7 @@ class WindowTest(WindowCase):
             self.save_as(editor, scene)
             # Opens the exported surface as a picture with a cage and maps it onto the leaf.
             editor.key("ctrl+o")
-            time.sleep(0.8)
+            editor.pause(0.8)
             editor.key("ctrl+a")
             editor.type(textured)
             editor.key("Return")
@@ -456,7 +459,7 @@ class WindowTest(WindowCase):
             editor.key("u")
             outline = load(scene)["outline"]
             self.assertEqual(len(outline), 72)
-        with Editor(PROGRAM, ["--allow-outside", scene]) as editor:
+        with Editor(["--allow-outside", scene]) as editor:
             editor.wait(lambda s: s["on_surface"] and s["pins"] == 1, "the saved surface")
             editor.key("u")
             x, y = outline[10]
@@ -466,9 +469,10 @@ class WindowTest(WindowCase):
             editor.key("ctrl+z")
             editor.wait(lambda s: s["on_surface"], "the surface again")
 
+    @real
     def test_corners_turn_and_keyframes_become_a_film(self):
         scene = self.caged((320, 120), [[10, 10], [310, 10], [310, 110], [10, 110]])
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             editor.key("i")
             state = editor.wait(lambda s: s["keys"] == 1 and s["shows_time"], "a key at rest")
@@ -513,7 +517,7 @@ class WindowTest(WindowCase):
             self.ask(editor, "ctrl+shift+p")
             editor.type("film")
             editor.key("Return")
-            time.sleep(0.4)
+            editor.pause(0.4)
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "walk.png"))
             editor.key("Return")
@@ -537,7 +541,7 @@ class WindowTest(WindowCase):
             self.save_as(editor, path)
             return [point[0] for point in load(path)["cage"]["pose"]]
 
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             state = editor.wait(lambda s: s["cage_points"] == 5, "the scene")
             editor.key("ctrl+a")
             editor.wait(lambda s: s["selected"] == 5, "all points")
@@ -579,9 +583,10 @@ class WindowTest(WindowCase):
             self.assertTrue(31 < soft[1][1] < 59.5, soft)
             self.assertEqual(soft[0][1], 60)
 
+    @real_in_soak
     def test_motion_is_recorded_and_its_keyframes_are_shown_by_the_onion_skin(self):
         scene = self.caged((320, 120), [[10, 10], [310, 10], [310, 110], [10, 110]])
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 4, "the scene")
             # A corner moves up and back while Ctrl is held, which records the motion in real time.
             editor.move(310, 110)
@@ -589,7 +594,7 @@ class WindowTest(WindowCase):
             editor.xdotool("mousedown", 1)
             for y in (130, 150, 170, 190, 210):
                 editor.move(330, y)
-            time.sleep(0.3)  # nothing moves, but time passes
+            editor.pause(0.3)  # nothing moves, but time passes
             self.screenshot(editor, "recording")
             for y in (180, 150, 130):
                 editor.move(310, y)
@@ -613,12 +618,12 @@ class WindowTest(WindowCase):
             # Between two keyframes, onion skins show the keyframes before and after.
             for _ in range(5):
                 editor.key("comma")
-            time.sleep(0.4)
+            editor.pause(0.4)
             plain = self.screenshot(editor, "no-onion")
             self.ask(editor, "ctrl+shift+p")
             editor.type("onion")
             editor.key("Return")
-            time.sleep(0.5)
+            editor.pause(0.5)
             onion = self.screenshot(editor, "onion")
             left, top, width, height = (int(state[k]) for k in ("left", "top", "width", "height"))
             view = numpy.s_[top:top + height, left:left + width]
@@ -631,24 +636,24 @@ class WindowTest(WindowCase):
             self.ask(editor, "ctrl+shift+p")
             editor.type("film")
             editor.key("Return")
-            time.sleep(0.4)
+            editor.pause(0.4)
             editor.key("ctrl+a")
             editor.type(path)
             editor.key("Return")
-            time.sleep(0.5)
+            editor.pause(0.5)
             with open(first) as file:
                 self.assertEqual(file.read(), "mine")
             editor.key("Return")  # Replace
             end = time.time() + 20
             while os.path.getsize(first) < 100 and time.time() < end:
-                time.sleep(0.1)
+                editor.pause(0.1)
             self.assertEqual(Image.open(first).format, "PNG")
             editor.wait(lambda s: not s["exporting"], "the end of the export")
             editor.key("ctrl+z")
             editor.wait(lambda s: s["keys"] == 0, "no keys after one undo")
 
     def test_a_stroke_is_drawn_and_its_pose_dragged(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             self.draw_square_cage(editor)
             editor.key("s")
             editor.wait(lambda s: s["tool"] == "stroke", "the tool")
@@ -657,7 +662,7 @@ class WindowTest(WindowCase):
             grain = 1.5 / editor.state()["zoom"]  # rounding to pixels of the window
             editor.drag((400, 400), (400, 500))
             editor.drag((650, 500), (640, 620))
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "strokes")
             path = os.path.join(self.work, "strokes.json")
             self.save_as(editor, path)
@@ -670,7 +675,7 @@ class WindowTest(WindowCase):
         self.assertEqual(report["flipped_triangles"], 0)
 
     def test_curves_are_bent_broken_and_cut(self):
-        with Editor(PROGRAM, [self.picture]) as editor:
+        with Editor([self.picture]) as editor:
             editor.wait(lambda s: not s["empty"], "the picture")
             editor.key("p")
             for a, b in [((1060, 300), (1060, 450)), ((800, 800), (650, 830)), ((200, 780), (80, 700)),
@@ -727,7 +732,7 @@ class WindowTest(WindowCase):
 
     def test_a_number_in_the_inspector_moves_what_is_selected(self):
         scene = old_sample("giraffe")
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             x, y = load(scene)["cage"]["pose"][0][0]
             editor.click(x, y)
@@ -740,17 +745,17 @@ class WindowTest(WindowCase):
 
     def test_unsaved_changes_are_asked_about(self):
         scene = old_sample("giraffe")
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
             editor.key("ctrl+a")
             editor.key("Up")
             editor.wait(lambda s: s["modified"], "an edit")
             editor.key("ctrl+q")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "unsaved")
             self.assertIsNone(editor.process.poll())
             editor.key("Escape")
-            time.sleep(0.3)
+            editor.pause(0.3)
             editor.key("ctrl+z")
             editor.wait(lambda s: not s["modified"], "the undone edit")
             editor.key("ctrl+q")
@@ -758,7 +763,7 @@ class WindowTest(WindowCase):
             self.assertEqual(editor.process.returncode, 0, editor.messages())
 
     def test_a_dropped_picture_opens_and_asks_about_unsaved_work(self):
-        with Editor(PROGRAM, []) as editor:
+        with Editor([]) as editor:
             editor.wait(lambda s: s["empty"], "the welcome page")
             editor.drop(old_sample("giraffe"), 500, 300)
             editor.wait(lambda s: s["cage_points"] > 0, "the dropped scene")
@@ -770,10 +775,10 @@ class WindowTest(WindowCase):
             editor.key("Up")
             editor.wait(lambda s: s["modified"], "another edit")
             editor.drop(self.picture, 500, 300)
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "drop-question")
             editor.press_item("Open as a new scene")
-            time.sleep(0.5)
+            editor.pause(0.5)
             self.screenshot(editor, "drop-unsaved")
             self.assertGreater(editor.state()["cage_points"], 0, "nothing is lost before the answer")
             editor.key("Return")  # Save
@@ -782,6 +787,7 @@ class WindowTest(WindowCase):
             after = load(path)["cage"]["pose"]
             self.assertEqual(round(after[0][0][1] - before[0][0][1]), 2, "both edits were saved")
 
+    @real
     def test_a_large_picture_fits_into_memory(self):
         noise = numpy.random.default_rng(1).integers(0, 255, (2000, 2000, 4), dtype=numpy.uint8)
         Image.fromarray(noise).save(os.path.join(self.work, "noise.png"))
@@ -790,7 +796,7 @@ class WindowTest(WindowCase):
         with open(scene, "w") as file:
             json.dump({"format": "holomorph", "version": 1, "image": {"file": "noise.png"},
                        "cage": {"rest": [[[z.real, z.imag]] for z in turn]}}, file)
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] == 32, "the scene")
             editor.drag((1780, 1000), (1900, 1100))
             editor.wait(lambda s: s["modified"], "a drag")
@@ -799,9 +805,10 @@ class WindowTest(WindowCase):
             print(f"{most // 1024} MB at most", file=sys.stderr)
             self.assertLess(most, 300 * 1024)
 
+    @real
     def test_idle_sleeps(self):
         scene = old_sample("giraffe")
-        with Editor(PROGRAM, [scene]) as editor:
+        with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the giraffe")
 
             def ticks():
@@ -811,7 +818,7 @@ class WindowTest(WindowCase):
 
             def used(seconds):
                 start = ticks()
-                time.sleep(seconds)
+                editor.pause(seconds)
                 return (ticks() - start) / os.sysconf("SC_CLK_TCK") / seconds
 
             end = time.time() + 40

@@ -7,6 +7,8 @@ import tempfile
 import unittest
 
 BUILD, SOURCE = sys.argv[1:3]
+sys.path.append(os.path.join(SOURCE, "tests/support"))
+import timed  # noqa: E402
 
 
 def run(*command, **more):
@@ -96,4 +98,4 @@ class Library(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    timed.main(sys.argv[3:])
