@@ -1,11 +1,10 @@
 """Helpers for the attacks: run the program under limits, print the seed, print a summary line.
 
 Each script takes the program and the checkout, as the other tests do, and options. It prints one summary line and exits
-with status 1 if a check fails. Without options it does a short run, as in CI.
+with status 1 if a check fails. Without options it does a short run.
 """
 import argparse
 import os
-import random
 import resource
 import signal
 import subprocess
@@ -13,16 +12,22 @@ import sys
 import tempfile
 import threading
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
+from seeds import few_or_many, seed_of  # noqa: E402, F401
+
 
 def arguments(text, **options):
     """Parses the command line: PROGRAM SOURCE, --seed, and options with their defaults."""
     parser = argparse.ArgumentParser(description=text)
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("source", type=os.path.abspath)
-    parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6))
+    parser.add_argument("--seed", type=int, help="of the random choices")
     for name, default in options.items():
         parser.add_argument("--" + name, type=type(default), default=default)
-    return parser.parse_args()
+    parsed = parser.parse_args()
+    if parsed.seed is None:
+        parsed.seed = seed_of("attack")
+    return parsed
 
 
 class Outcome:

@@ -11,7 +11,9 @@ from PIL import Image
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
 sys.path.append(os.path.join(SOURCE, "tests/support"))
+import timed  # noqa: E402, F401
 from old_samples import old_sample  # noqa: E402
+from seeds import few_or_many, seed_of, soak  # noqa: E402, F401
 
 
 def run(*words, **options):

@@ -10,14 +10,13 @@ import signal
 import subprocess
 import sys
 import time
-import unittest
 import zipfile
 
 import jsonschema
 import numpy
 from PIL import Image, ImageOps
 
-from case import PROGRAM, SOURCE, Case, old_sample, run
+from case import PROGRAM, SOURCE, Case, old_sample, run, timed
 
 SCHEMA = json.load(open(os.path.join(SOURCE, "schema/scene.schema.json")))
 SAMPLES = ["giraffe", "gecko", "sunflower", "fish", "octopus", "snake", "heart", "tiger", "fern"]
@@ -851,4 +850,4 @@ class CommandLine(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0]] + sys.argv[3:], verbosity=2, warnings="ignore")
+    timed.main(sys.argv[3:])

@@ -8,11 +8,10 @@ import stat
 import subprocess
 import tempfile
 import time
-import unittest
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from case import Case  # noqa: E402
+from case import Case, timed  # noqa: E402
 
 
 def free_port():
@@ -223,4 +222,4 @@ class Farm(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    timed.main(sys.argv[3:])

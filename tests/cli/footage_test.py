@@ -5,10 +5,8 @@ import json
 import math
 import os
 import random
-import shutil
 import subprocess
 import sys
-import unittest
 import zipfile
 from fractions import Fraction
 
@@ -16,7 +14,7 @@ import jsonschema
 import numpy
 from PIL import Image
 
-from case import PROGRAM, SOURCE, Case
+from case import PROGRAM, SOURCE, Case, seed_of, timed
 
 BITS, BAR, HEIGHT = 9, 8, 48
 WIDTH = BITS * BAR
@@ -60,8 +58,7 @@ H264 = ("-c:v", "libx264", "-pix_fmt", "yuv420p")
 class Footage(Case):
     def setUp(self):
         super().setUp()
-        self.seed = int(os.environ.get("HOLOMORPH_SEED", random.randrange(1 << 30)))
-        print(f"HOLOMORPH_SEED={self.seed}")
+        self.seed = seed_of(self.id())
         self.random = random.Random(self.seed)
 
     def scene(self, file, clip=None, **more):
@@ -377,4 +374,4 @@ class Footage(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    timed.main(sys.argv[3:])

@@ -8,12 +8,11 @@ import shutil
 import struct
 import subprocess
 import sys
-import unittest
 
 import numpy
 from PIL import Image
 
-from case import SOURCE, Case
+from case import SOURCE, Case, seed_of, timed
 
 FERN = os.path.join(SOURCE, "assets/fern.json")
 
@@ -107,7 +106,7 @@ class Meshes(Case):
         return scene["animation"]["frames_per_second"], last
 
     def test_gltf_has_the_vertices_of_the_map_at_every_frame(self):
-        for seed in (1, random.randrange(1 << 30)):
+        for seed in (1, seed_of("moving meshes", 2)):
             with self.subTest(seed=seed):
                 scene = self.moving(random.Random(seed))
                 self.good("export", scene, "--format", "glb", "--out", self.path("m.glb"), "--force")
@@ -133,7 +132,7 @@ class Meshes(Case):
         self.assertEqual(len(second["primitives"][0]["targets"]), len(second["weights"]))
 
     def test_the_error_that_is_said_is_the_error(self):
-        rng = random.Random(random.randrange(1 << 30))
+        rng = random.Random(seed_of("meshes", 3))
         scene = self.moving(rng, 1)
         rate, last = self.times(scene)
         for options, step in (([], 1 / rate), (["--rate", "4"], 1 / 4)):
@@ -279,4 +278,4 @@ class Meshes(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    timed.main(sys.argv[3:])

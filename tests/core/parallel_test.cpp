@@ -1,15 +1,14 @@
 // Parallel loops: each index is visited once, progress is reported on the calling thread, and
 // exceptions reach the caller.
 #include "core/parallel.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <atomic>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
-using namespace holomorph;
+namespace holomorph::parallel_test {
 
 TEST_CASE("A parallel loop visits each index once, with any number of threads") {
   for (const int threads : {0, 1, 2, 7})
@@ -53,3 +52,5 @@ TEST_CASE(
                         1'000'000, [](int) {}, stop, 1),
                     "stopped");
 }
+
+}  // namespace holomorph::parallel_test

@@ -1,14 +1,14 @@
 // What a newcomer gets: the first pin makes the cage and chooses the puppet.
-#include <catch2/catch.hpp>
 
 #include "core/geometry/polyline.h"
 #include "edit/actions/actions.h"
 #include "edit/edits/edits.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/folder.h"
 #include "system/new_file.h"
 
-using namespace holomorph;
+namespace holomorph::first_pin_test {
 
 namespace {
 
@@ -91,3 +91,5 @@ TEST_CASE("Pins that replace the cage hide its points; pins beside a bent cage d
   CHECK(both.method == "pins");
   CHECK(handles_of(both, EditMode::pose).size() == 5);
 }
+
+}  // namespace holomorph::first_pin_test

@@ -1,14 +1,13 @@
 // One click pins what is far from a single pin.
 #include "edit/hold_rest.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/mesh/mesher.h"
 #include "edit/actions/actions.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::hold_rest_test {
 
 namespace {
 
@@ -73,3 +72,5 @@ TEST_CASE("Hold the rest is offered with a single pin, and moves nothing") {
   desk.settle();
   CHECK((w.map().map().f - before).cwiseAbs().maxCoeff() < 0.5);
 }
+
+}  // namespace holomorph::hold_rest_test

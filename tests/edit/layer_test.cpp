@@ -1,11 +1,11 @@
 // Layers in the editor: choosing, locking and hiding them, and undo.
-#include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
 #include "edit/content.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::layer_test {
 
 namespace {
 
@@ -181,3 +181,5 @@ TEST_CASE("A box around a picture moves the whole picture, and its bounds follow
   CHECK(std::abs(corners().first - Complex(300, 100)) < 1e-3);
   CHECK(std::abs(corners().second - Complex(400, 180)) < 1e-3);
 }
+
+}  // namespace holomorph::layer_test

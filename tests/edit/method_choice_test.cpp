@@ -1,15 +1,14 @@
 // Methods and the switch "Prevent folds".
 #include "edit/method_choice.h"
 
-#include <catch2/catch.hpp>
-
 #include "edit/edits/method_edits.h"
 #include "edit/picking.h"
 #include "scene/keyframes.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::method_choice_test {
 
 TEST_CASE("Prevent folds is a switch of every method, except of those that never fold") {
   for (const Method& method : methods()) {
@@ -138,3 +137,5 @@ TEST_CASE("From a cage to a puppet without pins and back, cage points stay") {
   choose_method(desk.workspace, "pins");
   CHECK(desk.deformation().pose == posed);
 }
+
+}  // namespace holomorph::method_choice_test

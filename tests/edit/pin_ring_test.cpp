@@ -1,14 +1,14 @@
 // The ring of a selected pin: rotation, scale and the disk that the pin holds.
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "edit/edits/edits.h"
 #include "scene/formats/scene_json.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/pinned_bar.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::pin_ring_test {
 
 namespace {
 
@@ -83,3 +83,5 @@ TEST_CASE("Ring: the radius stays within the size of the cage") {
   desk.ctrl_drag(at + desk.ring(), at + Complex(0.5, 0));
   CHECK(desk.pin().radius.value() > 0);
 }
+
+}  // namespace holomorph::pin_ring_test

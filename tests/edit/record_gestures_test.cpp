@@ -1,13 +1,13 @@
 // Ctrl-drags of rings, arms and edges are recorded as keyframes.
-#include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/edits.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/pinned_bar.h"
 
-using namespace holomorph;
+namespace holomorph::record_gestures_test {
 
 namespace {
 
@@ -190,3 +190,5 @@ TEST_CASE("Escape cancels the recording of a ring") {
   CHECK_FALSE(desk.workspace.shown.preview);
   CHECK(desk.steps() == steps);
 }
+
+}  // namespace holomorph::record_gestures_test

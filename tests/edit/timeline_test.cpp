@@ -3,11 +3,10 @@
 #include "edit/actions/actions.h"
 #include "edit/edits/curve_edits.h"
 #include "edit/edits/method_edits.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-#include <catch2/catch.hpp>
-
-using namespace holomorph;
+namespace holomorph::timeline_test {
 
 namespace {
 
@@ -585,3 +584,5 @@ TEST_CASE("Timeline: poses are copied, pasted and mirrored") {
   CHECK(desk.deformation().pose.vertex(0) == Complex(-60, 10));
   CHECK(desk.deformation().pose.vertex(1) == Complex(300, 0));
 }
+
+}  // namespace holomorph::timeline_test

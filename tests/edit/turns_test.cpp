@@ -1,5 +1,4 @@
 // The turns of pins: a released drag stores them, and they decide which map a file shows.
-#include <catch2/catch.hpp>
 #include <thread>
 
 #include "core/mesh/mesher.h"
@@ -9,10 +8,11 @@
 #include "scene/keyframes.h"
 #include "scene/mirror.h"
 #include "scene/prepared_map.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/pinned_bar.h"
 
-using namespace holomorph;
+namespace holomorph::turns_test {
 
 namespace {
 
@@ -212,3 +212,5 @@ TEST_CASE("Puppet: a keyframe is proved to be free of folds, like the frames aro
     CHECK_THAT(workspace.map().map().note, Catch::Contains("o folds"));
   }
 }
+
+}  // namespace holomorph::turns_test

@@ -1,14 +1,13 @@
 // Folds count only where an eye can see them.
 #include "edit/visible_folds.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::visible_folds_test {
 
 namespace {
 
@@ -100,3 +99,5 @@ TEST_CASE("A fold smaller than a pixel is ignored") {
   const VectorXc large = 100 * f;
   CHECK(visible_folds(mesh, large, visible_triangles(mesh, nullptr)).size() == 1);
 }
+
+}  // namespace holomorph::visible_folds_test

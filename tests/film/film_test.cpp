@@ -2,20 +2,19 @@
 // finished.
 #include "film/film.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/error.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
 #include "scene/motion.h"
 #include "scene/prepared_map.h"
+#include "support/catch.h"
 #include "support/folder.h"
 #include "support/scenes.h"
 #include "support/seeds.h"
 #include "system/job.h"
 #include "system/new_file.h"
 
-using namespace holomorph;
+namespace holomorph::film_test {
 
 namespace {
 
@@ -146,7 +145,7 @@ TEST_CASE("A range of frames equals the same part of the whole film") {
 
 TEST_CASE("The rectangle of a film fits the whole motion tightly at any frame rate") {
   const Image image = gray();
-  for (const unsigned seed : seeds_of("rectangles of films", {1, 2, 3})) {
+  for (const unsigned seed : seeds_of("rectangles of films", {1})) {
     CAPTURE(seed);
     std::mt19937 random(seed);
     const auto number = [&](double low, double high) {
@@ -253,3 +252,5 @@ TEST_CASE("A cropped film covers what some frame fills") {
   CHECK(film->corner.real() == Approx(10).margin(1));
   CHECK(film->corner.imag() == Approx(15).margin(1));
 }
+
+}  // namespace holomorph::film_test

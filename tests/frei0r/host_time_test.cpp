@@ -1,12 +1,12 @@
 // Times as ffmpeg, MLT and other hosts pass them.
 #include "frei0r/host_time.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
+#include "support/catch.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::host_time_test {
 
 namespace {
 
@@ -99,3 +99,5 @@ TEST_CASE("Times between frames count only if the rate is certain") {
     REQUIRE(certain.seconds(40 * frame + 17) == frame / 25.0);
   }
 }
+
+}  // namespace holomorph::host_time_test

@@ -1,6 +1,5 @@
 // Compositing of layers: opaque pixels and pixels of a single layer are exact, and the order is
 // that of the stack.
-#include <catch2/catch.hpp>
 
 #include "core/error.h"
 #include "raster/compose.h"
@@ -8,11 +7,12 @@
 #include "raster/picture.h"
 #include "scene/attachments.h"
 #include "scene/layers.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::layers_raster_test {
 
 namespace {
 
@@ -510,3 +510,5 @@ TEST_CASE("An attached layer without a cage is carried as a whole, and films hav
     CHECK(std::abs(filled_whole - filled_cut) < 8);  // partly filled pixels at the edges
   }
 }
+
+}  // namespace holomorph::layers_raster_test

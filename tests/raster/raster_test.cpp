@@ -1,7 +1,6 @@
 // Exported pixels: identities, conservation of area, and no seams.
 #include "raster/raster.h"
 
-#include <catch2/catch.hpp>
 #include <cstring>
 
 #include "core/error.h"
@@ -11,10 +10,11 @@
 #include "raster/picture_rows.h"
 #include "raster/textured.h"
 #include "scene/auto_cage.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::raster_test {
 
 namespace {
 
@@ -390,3 +390,5 @@ TEST_CASE("The faint surroundings of a cut-out follow it") {
   for (size_t i = 3; i < all.image.pixels.size(); i += 4) visible += all.image.pixels[i] > 0;
   CHECK(visible == 60 * 40);  // nothing stays behind
 }
+
+}  // namespace holomorph::raster_test

@@ -1,16 +1,15 @@
 // ST-maps: overscan, coverage, both directions, and what filters need near edges.
 #include "raster/st_map.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "raster/nearest_covered.h"
 #include "raster/raster.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::st_map_test {
 
 namespace {
 
@@ -206,3 +205,5 @@ TEST_CASE("What is transparent does not hide what is beneath it") {
     CHECK((entry(map, 75, kSide - 120).real() > kSide / 2.0) == !transparent);
   }
 }
+
+}  // namespace holomorph::st_map_test

@@ -1,16 +1,15 @@
 // ST-maps and unwarped pictures: each pixel shows the point that the map takes there.
 #include "raster/unwarp.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "raster/picture.h"
 #include "scene/timed_map.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::unwarp_test {
 
 namespace {
 
@@ -55,9 +54,9 @@ Complex entry(const StMap& map, int column, int row) {
 
 }  // namespace
 
-TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel", "[long]") {
+TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel") {
   for (const unsigned seed : seeds_of("ST-map", {5}))
-    for (size_t m = 0; m < methods().size(); ++m) {
+    for (size_t m = 0; m < methods().size(); m += static_cast<size_t>(few_or_many(2, 1))) {
       const Method& method = methods()[m];
       const bool curved = (m + seed) % 2 != 0;
       const Scene scene = random_scene(method, curved, seed);
@@ -72,7 +71,7 @@ TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel",
       std::mt19937 random(seed);
       double worst = 0;
       int shown = 0, missing = 0, wrong = 0;
-      for (int i = 0; i < 900; ++i) {
+      for (int i = 0; i < few_or_many(100, 900); ++i) {
         const int column = static_cast<int>(random() % 600), row = static_cast<int>(random() % 600);
         const Complex w((column + 0.5) / scale, kHeight - (row + 0.5) / scale);
         const Complex z = entry(map, column, row);
@@ -88,7 +87,7 @@ TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel",
         }
       }
       CHECK(worst <= kStAccuracy);
-      CHECK(shown > 40);
+      CHECK(shown > few_or_many(3, 40));
       CHECK(missing + wrong == 0);
     }
 }
@@ -113,7 +112,7 @@ TEST_CASE("ST-map: the part that is drawn on top counts") {
   }
 }
 
-TEST_CASE("Unwarping a posed picture gives the picture back", "[long]") {
+TEST_CASE("Unwarping a posed picture gives the picture back") {
   for (const unsigned seed : seeds_of("Unwarp", {3}))
     for (const char* id : {"cage", "pins", "angles", "puppet", "arap"}) {
       const Scene scene = random_scene(method_named(id), false, seed);
@@ -169,10 +168,11 @@ TEST_CASE("ST-maps and unwarped pictures can be interrupted") {
   CHECK_THROWS_AS(unwarped(scene, &picture, 1, {}, stop), Error);
 }
 
-TEST_CASE("Preimages of many points at once are those of each point", "[long]") {
+TEST_CASE("Preimages of many points at once are those of each point") {
   for (const unsigned seed : seeds_of("many preimages", {1}))
     for (const Method& method : methods())
       for (const bool curved : {false, true}) {
+        if (curved && few_or_many(1, 0)) continue;
         const Scene scene = random_scene(method, curved, seed);
         TimedMap timed(scene);
         const auto inverse = timed.inverse(timed.frame({}));
@@ -180,7 +180,7 @@ TEST_CASE("Preimages of many points at once are those of each point", "[long]") 
         INFO(method.id << (curved ? ", curved" : ", straight") << ", seed " << seed);
         std::mt19937 random(seed);
         Points targets;
-        for (int i = 0; i < 150; ++i)  // not a multiple of a block
+        for (int i = 0; i < few_or_many(10, 150); ++i)  // not a multiple of a block
           targets.push_back(Complex(200, 200) + 190.0 * random_complex(random));
         const auto found = inverse->at(targets);
         REQUIRE(found.size() == targets.size());
@@ -191,3 +191,5 @@ TEST_CASE("Preimages of many points at once are those of each point", "[long]") 
         }
       }
 }
+
+}  // namespace holomorph::unwarp_test

@@ -2,8 +2,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <catch2/catch.hpp>
-
 #include <array>
 
 #include "raster/picture.h"
@@ -15,9 +13,10 @@
 #include "scene/document.h"
 #include "scene/fringe.h"
 #include "scene/live_map.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::render_test {
 
 namespace {
 
@@ -437,3 +436,5 @@ TEST_CASE("A fringe and a rotated view are drawn like the exported pixels") {
   CHECK(visible > 3000);
   CHECK(sum / (3.0 * visible) < 1.0);  // of 255
 }
+
+}  // namespace holomorph::render_test

@@ -1,16 +1,15 @@
 // Layers that follow a pin, a stroke or a place of another layer.
 #include "scene/attachments.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/error.h"
 #include "scene/formats/scene_json.h"
 #include "scene/layers.h"
 #include "scene/prepared_map.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::attachments_test {
 
 namespace {
 
@@ -185,3 +184,5 @@ TEST_CASE("attachments: files with cycles or missing parents are refused") {
   CHECK_THROWS_WITH(scene_from_json(json_of(circle), "the file"),
                     Catch::Contains("attached to itself"));
 }
+
+}  // namespace holomorph::attachments_test

@@ -1,19 +1,18 @@
 // Cages around a picture's content.
 #include "scene/auto_cage.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
 #include "core/maps/distortion.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/mesher.h"
 #include "scene/content_parts.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 #include "system/file.h"
 
-using namespace holomorph;
+namespace holomorph::auto_cage_test {
 
 namespace {
 
@@ -159,7 +158,8 @@ Limbs limbs_of(std::mt19937& random, double gap) {
 TEST_CASE("Limbs that are 3 px apart are apart in the cage, in any direction") {
   for (const unsigned seed : seeds_of("auto_cage_test", {1, 2, 3, 3145988102u})) {
     std::mt19937 random(seed);
-    for (int i = 0; i < 12; ++i) {
+    const int count = seed > 3 ? 12 : few_or_many(6, 12);  // the large seed failed once
+    for (int i = 0; i < count; ++i) {
       // Squares of pixels reach into a slanted gap by up to 0.71 px at each side.
       const double gap = (i % 2 ? 3 : 3 + i) + 1.42;
       const Limbs limbs = limbs_of(random, gap);
@@ -230,3 +230,5 @@ TEST_CASE("Without alpha the automatic cage is a rectangle around the picture") 
   beyond.detail = 101;
   CHECK_THROWS_AS(auto_cage(image, beyond), Error);
 }
+
+}  // namespace holomorph::auto_cage_test

@@ -1,8 +1,6 @@
 // check_scene refuses exactly the scenes that could not be opened again.
 #include "scene/check_scene.h"
 
-#include <catch2/catch.hpp>
-
 #include <functional>
 #include <limits>
 #include <random>
@@ -11,11 +9,12 @@
 #include "scene/budget.h"
 #include "scene/formats/scene_json.h"
 #include "scene/keyframes.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::check_scene_test {
 
 namespace {
 
@@ -233,3 +232,5 @@ TEST_CASE("An error in one of several layers gives the layer's number") {
   CHECK_THROWS_WITH(check_scene(scene), Catch::Contains("layer 2") && Catch::Contains("pin 2") &&
                                             Catch::Contains("larger than 1e8"));
 }
+
+}  // namespace holomorph::check_scene_test

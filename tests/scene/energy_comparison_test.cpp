@@ -1,5 +1,4 @@
 // On our own animals, the puppet's converged energy is at most that of Chen and Weber's method.
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -10,10 +9,11 @@
 #include "scene/auto_cage.h"
 #include "scene/formats/image.h"
 #include "scene/loading.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "system/text.h"
 
-using namespace holomorph;
+namespace holomorph::energy_comparison_test {
 
 namespace {
 
@@ -60,7 +60,7 @@ TEST_CASE("Puppet: on the samples, the energy is at most that of Chen and Weber'
 }
 
 TEST_CASE("Puppet: on other animals in random gentle poses, the energy is nearly that, too") {
-  for (const unsigned seed : seeds_of("energy comparison", {})) {
+  for (const unsigned seed : seeds_of("energy comparison", {1})) {
     std::mt19937 random(seed);
     for (const std::string name : {"snake", "tiger", "fish"}) {
       const std::string path = HOLOMORPH_SOURCE "/assets/" + name + ".png";
@@ -83,3 +83,5 @@ TEST_CASE("Puppet: on other animals in random gentle poses, the energy is nearly
     }
   }
 }
+
+}  // namespace holomorph::energy_comparison_test

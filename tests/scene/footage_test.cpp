@@ -2,7 +2,6 @@
 #include "scene/footage.h"
 
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <random>
@@ -15,11 +14,12 @@
 #include "scene/formats/scene_json.h"
 #include "scene/keyframes.h"
 #include "scene/pictures.h"
+#include "support/catch.h"
 #include "support/folder.h"
 #include "support/seeds.h"
 #include "system/new_file.h"
 
-using namespace holomorph;
+namespace holomorph::footage_test {
 
 namespace {
 
@@ -304,3 +304,5 @@ TEST_CASE("Several threads may ask for frames") {
   for (std::thread& thread : threads) thread.join();
   CHECK(wrong == 0);
 }
+
+}  // namespace holomorph::footage_test

@@ -1,15 +1,14 @@
 // Faint pixels outside a cut-out's cage.
 #include "scene/fringe.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/cauchy/cauchy.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/pictures.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::fringe_test {
 
 namespace {
 
@@ -112,3 +111,5 @@ TEST_CASE("fringe: holes of the cage have one, too") {
   CHECK(locate(fringe->mesh, fringe->mesh.vertices, {60, 60}));
   CHECK_FALSE(locate(fringe->mesh, fringe->mesh.vertices, {60, 85}));
 }
+
+}  // namespace holomorph::fringe_test

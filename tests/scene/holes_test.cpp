@@ -1,5 +1,4 @@
 // Holes of cages in scenes: files, SVG paths, mirrored poses, films and cages made from pictures.
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/error.h"
@@ -12,12 +11,13 @@
 #include "scene/keyframes.h"
 #include "scene/mirror.h"
 #include "scene/timed_map.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "support/scenes.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::holes_test {
 
 namespace {
 
@@ -278,3 +278,5 @@ TEST_CASE("The automatic cage has a valid hole for each of any number of random 
     CHECK(domain_mesh(cage, {500}).holes.size() == cage.holes.size());
   }
 }
+
+}  // namespace holomorph::holes_test

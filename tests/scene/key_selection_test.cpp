@@ -1,13 +1,12 @@
 // Edits of keyframes of several layers at once.
 #include "scene/key_selection.h"
 
-#include <catch2/catch.hpp>
-
 #include "scene/layers.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::key_selection_test {
 
 namespace {
 
@@ -134,3 +133,5 @@ TEST_CASE("keys: those of locked and hidden layers cannot be chosen") {
   CHECK(editable_keys(scene, {{1, 0.5}, {7, 1}}).empty());
   CHECK(span_of(all_keys(scene)) == std::pair(0.0, 1.0));
 }
+
+}  // namespace holomorph::key_selection_test

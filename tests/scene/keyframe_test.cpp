@@ -1,16 +1,15 @@
 // Keyframes: files keep them, edits keep them sorted, and maps at a time pass through them.
 #include "scene/keyframes.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/error.h"
 #include "core/mesh/mesher.h"
 #include "scene/formats/scene_json.h"
 #include "scene/live_map.h"
 #include "scene/mirror.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 
-using namespace holomorph;
+namespace holomorph::keyframe_test {
 
 namespace {
 
@@ -251,3 +250,5 @@ TEST_CASE("A pin that is turned twice also turns twice between the keys") {
                    std::polar(1.0, angle) * rest) <= 0.5);
   }
 }
+
+}  // namespace holomorph::keyframe_test

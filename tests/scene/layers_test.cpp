@@ -2,7 +2,6 @@
 // it.
 #include "scene/layers.h"
 
-#include <catch2/catch.hpp>
 #include <thread>
 
 #include "core/error.h"
@@ -12,6 +11,7 @@
 #include "scene/last_pictures.h"
 #include "scene/layer_maps.h"
 #include "scene/preferences.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "support/folder.h"
 #include "support/scenes.h"
@@ -19,7 +19,7 @@
 #include "support/shapes.h"
 #include "system/new_file.h"
 
-using namespace holomorph;
+namespace holomorph::layers_test {
 
 namespace {
 
@@ -202,14 +202,13 @@ TEST_CASE("Errors in a layer name its position in the file") {
     changed.replace(changed.find(from), from.size(), to);
     return complaint(changed);
   };
-  CHECK_THAT(with("\"edited\": 2", "\"edited\": 3"), Catch::Matchers::Contains("/edited"));
-  CHECK_THAT(with("\"middle\"", "7"), Catch::Matchers::Contains("/layers/1/name"));
-  CHECK_THAT(with("\"name\": \"top\"", "\"visible\": 1"),
-             Catch::Matchers::Contains("/layers/2/visible"));
+  CHECK_THAT(with("\"edited\": 2", "\"edited\": 3"), Catch::Contains("/edited"));
+  CHECK_THAT(with("\"middle\"", "7"), Catch::Contains("/layers/1/name"));
+  CHECK_THAT(with("\"name\": \"top\"", "\"visible\": 1"), Catch::Contains("/layers/2/visible"));
   CHECK_THAT(with("\"edited\"", "\"background\": \"#12345\", \"edited\""),
-             Catch::Matchers::Contains("/background"));
+             Catch::Contains("/background"));
   CHECK_THAT(complaint(R"({"format": "holomorph", "version": 2, "layers": []})"),
-             Catch::Matchers::Contains("/layers"));
+             Catch::Contains("/layers"));
 }
 
 TEST_CASE(
@@ -319,7 +318,7 @@ TEST_CASE("A document finds the pictures of all layers wherever it is saved") {
   std::filesystem::remove(folder.path / "b.png");
   // A missing picture does not affect the others, and the scene still names it.
   const Document rest = Document::open(folder.path / "pictures" / "s.json", {true});
-  CHECK_THAT(rest.warning(), Catch::Matchers::Contains("/layers/1/image/file"));
+  CHECK_THAT(rest.warning(), Catch::Contains("/layers/1/image/file"));
   CHECK_FALSE(rest.image());
   CHECK(rest.scene().layer().image->file == (folder.path / "b.png").string());
   CHECK(rest.pictures().of(*rest.scene().layers[0]));
@@ -342,7 +341,7 @@ TEST_CASE(
   const Document without = Document::open(folder.path / "s.json");
   CHECK_FALSE(without.image());
   CHECK(without.layers_without_picture() == std::vector<size_t>{0});
-  CHECK_THAT(without.warning(), Catch::Matchers::Contains("a.png"));
+  CHECK_THAT(without.warning(), Catch::Contains("a.png"));
   CHECK(without.image_path() == folder.path / "art" / "a.png");
   CHECK(without.scene().layer().image->sha256 == moved.scene().layer().image->sha256);
   CHECK_THROWS_AS(load_scene(folder.path / "s.json"), Error);  // without a window it is an error
@@ -425,3 +424,5 @@ TEST_CASE("A pasted picture is saved with the scene, even if its own file is gon
       CHECK(Document::recover(entry.path()).scene().deformation().has_cage());
   ::unsetenv("XDG_DATA_HOME");
 }
+
+}  // namespace holomorph::layers_test

@@ -1,14 +1,14 @@
 // Maps that a worker solves: the newest answer is displayed, drafts improve, and final maps are the
 // same as if they were solved from scratch.
-#include <catch2/catch.hpp>
 
-#include "scene/keyframes.h"
 #include "scene/live_map.h"
+#include "scene/keyframes.h"
+#include "support/catch.h"
 #include "support/pinned_bar.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::live_map_test {
 
 namespace {
 
@@ -111,3 +111,5 @@ TEST_CASE("The worker finds the maps at keyframes, and a drag does not wait for 
   CHECK(difference(at(2), solved(bent(deformation, 2))) <= 1e-6 * 600);
   CHECK(map.follow_keys());
 }
+
+}  // namespace holomorph::live_map_test

@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "scene/preferences.h"
 #include "scene/prepared_map.h"
 #include "scene/recovery.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "support/folder.h"
 #include "support/scenes.h"
@@ -24,7 +24,7 @@
 #include "system/new_file.h"
 #include "system/text.h"
 
-using namespace holomorph;
+namespace holomorph::scene_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -657,3 +657,5 @@ TEST_CASE("Samples of an earlier release keep their methods, parameters and hand
     CHECK(after.value("pins", none) == before.value("pins", none));
   }
 }
+
+}  // namespace holomorph::scene_test

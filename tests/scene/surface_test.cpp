@@ -1,6 +1,5 @@
 // Surfaces: read, checked, flattened, placed in the plane.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 
 #include "core/error.h"
 #include "core/geometry/curve.h"
@@ -8,10 +7,11 @@
 #include "scene/document.h"
 #include "scene/flattened_surface.h"
 #include "scene/formats/scene_json.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "system/new_file.h"
 
-using namespace holomorph;
+namespace holomorph::surface_test {
 
 namespace {
 
@@ -298,3 +298,5 @@ TEST_CASE("Materials: the first picture, whatever blanks, options and slashes su
   CHECK(surface_of_obj("mtllib fish #2.mtl \r\nv 0 0 0\nv 1 0 0 # a\nv 0 1 0\nf 1 2 3\n", "s.obj")
             .materials == "fish #2.mtl");
 }
+
+}  // namespace holomorph::surface_test

@@ -1,10 +1,10 @@
 // The error messages for bad input.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <string>
 
 #include "core/error.h"
+#include "support/catch.h"
 
 namespace holomorph {
 

@@ -1,4 +1,4 @@
-// Seeds for random tests: fixed ones, and a random one that each run prints.
+// Seeds for random tests.
 #pragma once
 
 #include <cstdio>
@@ -10,15 +10,26 @@
 
 namespace holomorph {
 
-/// The fixed seeds and a random one. The environment variable HOLOMORPH_SEED replaces all of them,
-/// so that a failure can be reproduced.
+/// The fixed seeds of a test, so that it has the same answer each time. For soak tests, the
+/// environment variable HOLOMORPH_FRESH replaces them by that many new ones, which are printed, and
+/// HOLOMORPH_SEED by a single one, to repeat a failure.
 inline std::vector<unsigned> seeds_of(const char* test, std::vector<unsigned> fixed) {
   if (const char* given = std::getenv("HOLOMORPH_SEED"))
     return {static_cast<unsigned>(std::strtoul(given, nullptr, 10))};
-  fixed.push_back(std::random_device{}());
-  std::printf("%s: HOLOMORPH_SEED=%u\n", test, fixed.back());
+  const char* fresh = std::getenv("HOLOMORPH_FRESH");
+  if (!fresh) return fixed;
+  std::vector<unsigned> seeds(std::strtoul(fresh, nullptr, 10));
+  for (unsigned& seed : seeds) {
+    seed = std::random_device{}();
+    std::printf("%s: HOLOMORPH_SEED=%u\n", test, seed);
+  }
   std::fflush(stdout);
-  return fixed;
+  return seeds;
+}
+
+/// How often to repeat something: `few` times in scripts/test, `many` times in scripts/soak.
+inline int few_or_many(int few, int many) {
+  return std::getenv("HOLOMORPH_FRESH") ? many : few;
 }
 
 /// A random number with both parts between -1 and 1. The order in which they are drawn does not

@@ -1,11 +1,10 @@
 // Other programs: their output comes back complete, and none of them can block the caller.
 #include "system/process.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include "core/clock.h"
 
-using namespace holomorph;
+namespace holomorph::process_test {
 
 TEST_CASE("A program gets all of its input, and its output comes back complete") {
   std::string input;
@@ -42,3 +41,5 @@ TEST_CASE("The caller does not wait for a helper that a program leaves behind") 
   CHECK(finished->output == "here\n");
   CHECK(now_ms() - start < 30000);
 }
+
+}  // namespace holomorph::process_test

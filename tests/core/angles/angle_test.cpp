@@ -2,7 +2,6 @@
 // with a finite-difference solution.
 #include "core/angles/angle_map.h"
 
-#include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
 
@@ -11,10 +10,11 @@
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
 #include "core/methods/real_coordinates.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::angle_test {
 
 namespace {
 
@@ -183,7 +183,7 @@ RealParts vertex_weights(const Cage& cage) {
   return parts;
 }
 
-TEST_CASE("Hilbert coordinates: many points at once give what each gives alone", "[long]") {
+TEST_CASE("Hilbert coordinates: many points at once give what each gives alone") {
   for (const unsigned seed : seeds_of("many points of Hilbert coordinates", {3}))
     for (const Cage& cage :
          {rough_cage(seed, 0), rough_cage(seed, 2), shapes::curved_star(30, 3, 0.1, seed)}) {
@@ -387,3 +387,5 @@ TEST_CASE(
     REQUIRE(nearest <= 1e-3);
   }
 }
+
+}  // namespace holomorph::angle_test

@@ -1,7 +1,6 @@
 // Cauchy coordinates against exact values, the identities they satisfy, and the array path.
 #include "core/cauchy/cauchy.h"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -10,10 +9,11 @@
 #include "core/cauchy/inside.h"
 #include "core/error.h"
 #include "core/geometry/nearby_order.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::cauchy_test {
 using nlohmann::json;
 
 namespace {
@@ -451,8 +451,7 @@ TEST_CASE("Inside: points on the chords of curved segments") {
   }
 }
 
-TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary is inside",
-          "[long]") {
+TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary is inside") {
   for (const unsigned seed : seeds_of("inside of cages", {1, 2})) {
     std::mt19937 random(seed);
     for (const int degree : {1, 2, 3, 4}) {
@@ -467,7 +466,7 @@ TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary i
       }
       const Inside inside(cage);
       const Polygon fine = outline_of(cage, 4000);
-      for (int i = 0; i < 3000; ++i) {
+      for (int i = 0; i < few_or_many(400, 3000); ++i) {
         Complex z = Complex(200, 200) + 130.0 * random_complex(random);
         if (i % 3 == 0) {  // next to the boundary
           const Index e = static_cast<Index>(random() % static_cast<unsigned>(cage.size()));
@@ -485,3 +484,5 @@ TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary i
     }
   }
 }
+
+}  // namespace holomorph::cauchy_test

@@ -1,5 +1,4 @@
 // The comparison with other projections: each satisfies what its paper states.
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/compared/comparison.h"
@@ -7,8 +6,9 @@
 #include "core/error.h"
 #include "core/mesh/mesher.h"
 #include "core/solvers/real_form.h"
+#include "support/catch.h"
 
-using namespace holomorph;
+namespace holomorph::comparison_test {
 
 namespace {
 
@@ -158,8 +158,7 @@ TEST_CASE(
   CHECK(worst_outside(t->apply(conformal.x), {0.001, 0.5, 2}) <= 1e-9);
 }
 
-TEST_CASE("Comparison: all methods unfold a folded picture, and each row measures the result",
-          "[long]") {
+TEST_CASE("Comparison: all methods unfold a folded picture, and each row measures the result") {
   const Folded bar(100);
   std::vector<ComparedMap> rows;
   compare(bar.rest, bar.pose, [&](const ComparedMap& row) { rows.push_back(row); });
@@ -189,3 +188,5 @@ TEST_CASE("Comparison: all methods unfold a folded picture, and each row measure
   narrow.parameters = {{"sigma", 3}, {"Sigma", 2}};
   CHECK_THROWS_AS(compare(narrow, bar.pose, [](const ComparedMap&) {}), Error);
 }
+
+}  // namespace holomorph::comparison_test

@@ -2,14 +2,14 @@
 // the puppet's as published.
 #include "core/compared/harmonic_isometric.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/isometric/isometric_space.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::harmonic_isometric_test {
 
 namespace {
 
@@ -102,3 +102,5 @@ TEST_CASE("Chen, Weber 2017: the result is a minimum without folds, near the pup
     CHECK(own.certificate.holds);
   }
 }
+
+}  // namespace holomorph::harmonic_isometric_test

@@ -1,12 +1,11 @@
 // The rows of the comparison of methods with pins.
 #include "core/compared/isometric_comparison.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::isometric_comparison_test {
 
 namespace {
 
@@ -51,3 +50,5 @@ TEST_CASE("Comparison with pins: the puppet's row has its own parameters, and ea
   pose.pins.clear();
   CHECK_THROWS(rows_of(rest, pose));
 }
+
+}  // namespace holomorph::isometric_comparison_test

@@ -1,15 +1,15 @@
 // The published angle maps compared with ours: the errors of their functions.
 #include "core/compared/published_angles.h"
 
-#include <catch2/catch.hpp>
 #include <numeric>
 
 #include "core/angles/angle_map.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::published_angles_test {
 
 namespace {
 
@@ -62,3 +62,5 @@ TEST_CASE("As published: for a gentle bend the map is close to ours") {
   CHECK((published.f - ours.f).cwiseAbs().maxCoeff() > 0.01);
   CHECK_FALSE(deformer->point_map(pose));
 }
+
+}  // namespace holomorph::published_angles_test

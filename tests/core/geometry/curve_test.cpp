@@ -1,13 +1,12 @@
 // Bezier segments, cages and polygons.
 #include "core/geometry/curve.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/error.h"
 #include "core/geometry/cage.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::curve_test {
 
 namespace {
 const Points kCubic{{0, 0}, {10, 40}, {60, -20}, {80, 30}};
@@ -149,3 +148,5 @@ TEST_CASE("A rest cage that cannot be used is rejected with the reason") {
   curved.segments[1][0] = {0, 0};
   CHECK_THAT(message(curved), Catch::Contains("no length"));
 }
+
+}  // namespace holomorph::curve_test

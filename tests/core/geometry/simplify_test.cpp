@@ -1,15 +1,15 @@
 // Cages with few vertices around a shape.
 #include "core/geometry/simplify.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/geometry/orientation.h"
 #include "core/geometry/polyline.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::simplify_test {
 
 namespace {
 
@@ -77,3 +77,5 @@ TEST_CASE("Thinned cages: curved cages stay as they are") {
   cage.segments[0] = {cage.segments[0][0], {70, -30}, {140, -30}};
   CHECK(thinned_around(cage, 10) == cage);
 }
+
+}  // namespace holomorph::simplify_test

@@ -1,15 +1,15 @@
 // Poses that nobody should ask for: every frame is proved, and none takes long.
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
 
 #include "core/clock.h"
 #include "core/maps/distortion.h"
 #include "core/maps/injectivity.h"
+#include "support/catch.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::adversarial_poses_test {
 
 namespace {
 
@@ -38,7 +38,7 @@ Pose posed(const Puppet& puppet, Kind kind, double part, const std::vector<size_
 
 }  // namespace
 
-TEST_CASE("Puppet: every frame of adversarial poses is proved", "[long]") {
+TEST_CASE("Puppet: every frame of adversarial poses is proved") {
   // HOLOMORPH_POSES sets another number of poses for each kind, for measurements.
   const char* given = std::getenv("HOLOMORPH_POSES");
   const int count = given ? std::atoi(given) : 1;
@@ -82,3 +82,5 @@ TEST_CASE("Puppet: every frame of adversarial poses is proved", "[long]") {
     std::printf("%d poses: slowest draft %.1f ms, slowest final %.0f ms\n", poses, slowest_draft,
                 slowest_final);
 }
+
+}  // namespace holomorph::adversarial_poses_test

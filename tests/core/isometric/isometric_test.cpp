@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/isometric/barrier.h"
@@ -11,9 +10,10 @@
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
 #include "core/solvers/real_form.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::isometric_test {
 
 namespace {
 
@@ -265,7 +265,7 @@ TEST_CASE("Path tree: the nodes integrate functions of the basis almost to round
   }
 }
 
-TEST_CASE("Isometric maps: the energies of the specification, certified", "[long]") {
+TEST_CASE("Isometric maps: the energies of the specification, certified") {
   struct Row {
     Problem problem;
     double energy;
@@ -532,3 +532,5 @@ TEST_CASE("Isometric program: its minimum equals Ipopt's from the same start") {
     CHECK(std::abs(own.total - other) <= 1e-7 * other);
   }
 }
+
+}  // namespace holomorph::isometric_test

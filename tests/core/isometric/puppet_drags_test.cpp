@@ -1,14 +1,14 @@
 // Random drags of the puppet's pins: each frame is proved, and a released pose is found again from
 // its turns alone.
-#include <catch2/catch.hpp>
 
 #include "core/clock.h"
 #include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
+#include "support/catch.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::puppet_drags_test {
 
 namespace {
 
@@ -72,7 +72,7 @@ Dragged dragged(const Puppet& puppet, Deformer& deformer, std::mt19937& random) 
 
 }  // namespace
 
-TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it shows", "[long]") {
+TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it shows") {
   // HOLOMORPH_DRAGS sets another number of drags, for measurements.
   const char* given = std::getenv("HOLOMORPH_DRAGS");
   const int count = given ? std::atoi(given) : 2;
@@ -131,3 +131,5 @@ TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it
         "where pins are met, %.1e elsewhere (%d); %d moved by more than a tenth at the release\n",
         drags, slowest_draft, slowest_final, largest_met, largest_missed, missed, moved_far);
 }
+
+}  // namespace holomorph::puppet_drags_test

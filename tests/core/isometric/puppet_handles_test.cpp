@@ -1,14 +1,14 @@
 // The puppet's handles besides pins: strokes act as rows of pins, and without both the cage's
 // points hold the boundary.
-#include <catch2/catch.hpp>
 
 #include "core/geometry/polyline.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::puppet_handles_test {
 
 namespace {
 
@@ -129,3 +129,5 @@ TEST_CASE("Puppet: with pins, the number of cage points on straight edges hardly
   const Points few = posed(1), many = posed(24);
   for (size_t i = 0; i < few.size(); ++i) CHECK(std::abs(few[i] - many[i]) <= 0.003 * kSize);
 }
+
+}  // namespace holomorph::puppet_handles_test

@@ -1,11 +1,11 @@
 // The puppet with limits on its distortion.
-#include <catch2/catch.hpp>
 
 #include "core/maps/distortion.h"
+#include "support/catch.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::puppet_limits_test {
 
 namespace {
 
@@ -26,8 +26,7 @@ Pose random_pose(const Puppet& puppet, double reach, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("Puppet: limits hold everywhere, in drafts and in final answers, at rest and far away",
-          "[long]") {
+TEST_CASE("Puppet: limits hold everywhere, in drafts and in final answers, at rest and far away") {
   for (const unsigned seed : seeds_of("puppet_limits_test", {1, 2, 3, 4, 5, 6})) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -88,3 +87,5 @@ TEST_CASE("Puppet: wide limits change little, and narrow ones are reached before
     CHECK(reached);
   }
 }
+
+}  // namespace holomorph::puppet_limits_test

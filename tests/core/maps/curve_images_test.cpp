@@ -1,13 +1,12 @@
 // The images of curves are within the tolerance of the map, smooth, and exact for affine maps.
 #include "core/maps/curve_images.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/geometry/affine.h"
 #include "core/geometry/curve.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::curve_images_test {
 
 namespace {
 
@@ -188,3 +187,5 @@ TEST_CASE("Images of curves are as close as asked for, and smooth") {
     }
   }
 }
+
+}  // namespace holomorph::curve_images_test

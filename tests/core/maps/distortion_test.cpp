@@ -3,13 +3,13 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#include <catch2/catch.hpp>
 
 #include "core/maps/injectivity.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::distortion_test {
 
 namespace {
 
@@ -121,3 +121,5 @@ TEST_CASE("Injectivity: visible loops are folds, loops too small to be seen are 
     CHECK((found.least_stretch < 0) == (reach > 10));
   }
 }
+
+}  // namespace holomorph::distortion_test

@@ -1,14 +1,14 @@
 // The disks that pins with a frame hold.
 #include "core/maps/held_disk.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::held_disk_test {
 
 namespace {
 
@@ -94,3 +94,5 @@ TEST_CASE("Held disks: a radius without effect needs no new preparation") {
     CHECK((used_by(method, rest) == before) == !method.holds_disks);
   }
 }
+
+}  // namespace holomorph::held_disk_test

@@ -1,14 +1,13 @@
 // Preimages: round trips, boundaries, overlaps.
 #include "core/maps/inverse.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/cauchy/cauchy.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::inverse_test {
 using shapes::curved_star;
 
 namespace {
@@ -55,8 +54,7 @@ Points inner_points(const Cage& cage, int count, unsigned seed, double near_boun
 
 }  // namespace
 
-TEST_CASE("Inverse: every point of a random map is recovered, also next to the boundary",
-          "[long]") {
+TEST_CASE("Inverse: every point of a random map is recovered, also next to the boundary") {
   int points = 0, failed = 0;
   double worst = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
@@ -198,8 +196,7 @@ TEST_CASE("Inverse: a sheet that lies within a triangle at the boundary is found
   CHECK(nearest <= 1e-9);
 }
 
-TEST_CASE("Inverse: the number of preimages is the winding number of the boundary's image",
-          "[long]") {
+TEST_CASE("Inverse: the number of preimages is the winding number of the boundary's image") {
   for (const unsigned seed : seeds_of("preimages", {31, 32, 33})) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -233,8 +230,7 @@ TEST_CASE("Inverse: the number of preimages is the winding number of the boundar
   }
 }
 
-TEST_CASE("Inverse: for every method with a point map, points next to the boundary are recovered",
-          "[long]") {
+TEST_CASE("Inverse: for every method with a point map, points next to the boundary are recovered") {
   constexpr double kAccurate = 1e-11;  // relative to the size plus |w|, as the header states
   for (const unsigned seed : seeds_of("inverses of all methods", {41}))
     for (const Method& method : methods())
@@ -304,3 +300,5 @@ TEST_CASE("Inverse: a branch point counts once for each sheet that meets there")
   CHECK(warp.inverse->at(w).size() == 2);
   CHECK(warp.inverse->at(w + Complex(1e-4, 0)).size() == 2);
 }
+
+}  // namespace holomorph::inverse_test

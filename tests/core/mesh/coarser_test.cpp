@@ -1,14 +1,14 @@
 // Coarser meshes cover the same domain, whatever the cage.
 #include "core/mesh/coarser.h"
 
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::coarser_test {
 
 namespace {
 
@@ -83,3 +83,5 @@ TEST_CASE("A coarser mesh has as few vertices as asked for, unless the outline n
   CHECK(coarser_mesh(mesh, 60).kept.size() < 90);
   CHECK(coarser_mesh(mesh, mesh.vertices.size() + 1).kept.size() == mesh.vertices.size());
 }
+
+}  // namespace holomorph::coarser_test

@@ -2,13 +2,13 @@
 #include "core/mesh/draw_order.h"
 #include "core/mesh/mesher.h"
 
-#include <catch2/catch.hpp>
 #include <map>
 
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::draw_order_test {
 
 namespace {
 
@@ -99,3 +99,5 @@ TEST_CASE("Drawn outward, all of a limb that crosses the body lies in front of i
     CHECK(body < arm);
   }
 }
+
+}  // namespace holomorph::draw_order_test

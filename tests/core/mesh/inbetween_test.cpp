@@ -1,14 +1,13 @@
 // In-between maps: shapes are kept, bounds hold, and rotations go in the expected direction.
 #include "core/mesh/inbetween.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::inbetween_test {
 
 namespace {
 
@@ -174,3 +173,5 @@ TEST_CASE(
   CHECK(std::abs(turn(first, h) - turn(first, 0)) / h <= 0.01);
   CHECK(std::abs(turn(second, 1) - turn(second, 1 - h)) / h <= 0.01);
 }
+
+}  // namespace holomorph::inbetween_test

@@ -1,16 +1,16 @@
 // The domain mesh is a partition of the polygon, whatever the polygon.
 #include "core/mesh/mesh.h"
 
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/geometry/orientation.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::mesh_test {
 
 namespace {
 
@@ -133,7 +133,7 @@ TEST_CASE("The domain mesh partitions slivers, combs, collinear and nearly repea
     check_partition(shapes::star(4 + 20 * static_cast<int>(seed), 0.6, seed), options);
 }
 
-TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles", "[long]") {
+TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles") {
   for (unsigned seed = 1; seed <= 5; ++seed)
     for (const int degree : {2, 3, 6}) {
       Cage cage = shapes::curved_star(3 + 2 * static_cast<int>(seed), degree, 0.3, seed);
@@ -221,3 +221,5 @@ TEST_CASE("A needle between edges that nearly touch is meshed or rejected") {
     CHECK(area == Approx(std::abs(signed_area(polygon))).epsilon(1e-8));
   }
 }
+
+}  // namespace holomorph::mesh_test

@@ -1,5 +1,4 @@
 // Method `angles`: the effect of posed cages, corner angles, tensions and pins on the boundary.
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/angles/boundary_angles.h"
@@ -7,10 +6,11 @@
 #include "core/error.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::angles_method_test {
 
 namespace {
 
@@ -361,3 +361,5 @@ TEST_CASE("Angles: points next to an opened corner are mapped correctly at any d
     }
   }
 }
+
+}  // namespace holomorph::angles_method_test

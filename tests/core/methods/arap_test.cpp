@@ -1,12 +1,12 @@
 // Methods `arap` and `har_arap`: as-rigid-as-possible maps, on triangles and among smooth maps.
-#include <catch2/catch.hpp>
 
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::arap_test {
 
 namespace {
 
@@ -83,8 +83,7 @@ struct Animal {
 
 }  // namespace
 
-TEST_CASE("As rigid as possible: smooth maps of thin arms are about as rigid as triangles",
-          "[long]") {
+TEST_CASE("As rigid as possible: smooth maps of thin arms are about as rigid as triangles") {
   for (const unsigned seed : seeds_of("rigid and smooth arms", {1, 2, 3})) {
     std::mt19937 random(seed);
     const Animal animal(random);
@@ -174,3 +173,5 @@ TEST_CASE(
                        pose.cage.vertex(v)) < 1.5);  // a vertex moves by 16
     }
 }
+
+}  // namespace holomorph::arap_test

@@ -1,13 +1,13 @@
 // For every method, a Rest or Pose with missing or invalid data is an Error, and unusual data does
 // not crash the program.
-#include <catch2/catch.hpp>
 #include <functional>
 
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "support/catch.h"
 #include "support/contract_setup.h"
 
-using namespace holomorph;
+namespace holomorph::bad_input_test {
 
 namespace {
 
@@ -278,3 +278,5 @@ TEST_CASE("Contract: missing or invalid data in a rest or pose is an Error") {
     }
   }
 }
+
+}  // namespace holomorph::bad_input_test

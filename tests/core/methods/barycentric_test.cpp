@@ -1,14 +1,14 @@
 // Other authors' cage coordinates: mean value coordinates, and Green coordinates, which are the
 // same as Cauchy coordinates.
-#include <catch2/catch.hpp>
 
 #include "core/cauchy/cauchy.h"
 #include "core/cauchy/quadrature.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::barycentric_test {
 
 namespace {
 
@@ -103,3 +103,5 @@ TEST_CASE("Mean value coordinates: they follow the cage, and are negative beyond
   CHECK(mean_value_low < -0.005);
   CHECK(harmonic_low > -2e-3);
 }
+
+}  // namespace holomorph::barycentric_test

@@ -1,15 +1,15 @@
 // Method `bounded`: drags, shapes of cages, all references, and degenerate input.
-#include <catch2/catch.hpp>
 
 #include "core/cauchy/boundary_basis.h"
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::bounded_method_test {
 
 namespace {
 
@@ -63,7 +63,7 @@ Points long_bar() {
 
 }  // namespace
 
-TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle flips", "[long]") {
+TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle flips") {
   using Row = std::pair<const char*, const char*>;
   for (const auto& [reference, space] :
        {Row{"pins", "nu"}, Row{"har_arap", "nu"}, Row{"arap", "nu"}, Row{"pins", "psi"},
@@ -89,8 +89,7 @@ TEST_CASE("Bounded method: every frame of a drag is certified, and no triangle f
   }
 }
 
-TEST_CASE("Bounded method: drags of cages with many points, curves or holes are certified",
-          "[long]") {
+TEST_CASE("Bounded method: drags of cages with many points, curves or holes are certified") {
   for (const unsigned seed : seeds_of("large bounded cages", {1})) {
     std::mt19937 random(seed);
     Cage ring = shapes::curved_star(12, 3, 0.2, seed + 2);
@@ -157,8 +156,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Bounded method: notches, curves and clockwise cages are certified and do not flip",
-          "[long]") {
+TEST_CASE("Bounded method: notches, curves and clockwise cages are certified and do not flip") {
   std::vector<Cage> cages{shapes::curved_star(8, 3, 0.25, 3), polygon_cage(notched(8)),
                           polygon_cage(notched(4.9)), polygon_cage(shapes::comb(4)),
                           reversed(polygon_cage(shapes::l_shape()))};
@@ -440,3 +438,5 @@ TEST_CASE("Bounded method: positions are continuous, and their differences satis
     }
   }
 }
+
+}  // namespace holomorph::bounded_method_test

@@ -1,13 +1,13 @@
 // Cauchy coordinates on curved segments: the theorems that hold for straight cages, and the
 // defining integral.
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/cauchy/cauchy.h"
 #include "core/cauchy/cauchy_map.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::curved_rest_test {
 using shapes::curved_star;
 
 namespace {
@@ -267,3 +267,5 @@ TEST_CASE("Curved rest: single points on the boundary use their own segment, how
       REQUIRE(std::abs(sum.at(points[i]).f - exact[static_cast<Index>(i)]) < 1e-6);
   }
 }
+
+}  // namespace holomorph::curved_rest_test

@@ -1,6 +1,5 @@
 // Cages with holes: what is valid, meshes and inverses in them, and the maps of all methods that
 // allow them on rings and on domains with two unequal holes.
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/cauchy/boundary_basis.h"
@@ -13,11 +12,12 @@
 #include "core/maps/inverse.h"
 #include "core/mesh/hole_loops.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "support/contract_setup.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::holes_test {
 
 namespace {
 
@@ -257,7 +257,7 @@ TEST_CASE("Holes: harmonic coordinates of a ring are logarithms of the radius") 
   }
 }
 
-TEST_CASE("Holes: maps are single-valued, and iterating methods without folds prove it", "[long]") {
+TEST_CASE("Holes: maps are single-valued, and iterating methods without folds prove it") {
   for (const unsigned seed : seeds_of("single-valued maps", {1, 2})) {
     std::mt19937 random(seed);
     const Cage cage = seed == 1 ? ring() : random_domain(random);
@@ -336,7 +336,7 @@ TEST_CASE("Holes: methods that do not allow them say so") {
   }
 }
 
-TEST_CASE("Holes: puppets with random holes and pins are certified and closed", "[long]") {
+TEST_CASE("Holes: puppets with random holes and pins are certified and closed") {
   for (const unsigned seed : seeds_of("puppets with holes", {7})) {
     std::mt19937 random(seed);
     for (int k = 0; k < 3; ++k) {
@@ -367,7 +367,7 @@ TEST_CASE("Holes: puppets with random holes and pins are certified and closed", 
   }
 }
 
-TEST_CASE("Holes: puppets are closed in sudden drafts and at limits, too", "[long]") {
+TEST_CASE("Holes: puppets are closed in sudden drafts and at limits, too") {
   for (const unsigned seed : seeds_of("closed puppets", {8})) {
     std::mt19937 random(seed);
     const Cage cage = random_domain(random);
@@ -412,3 +412,5 @@ TEST_CASE("Holes: a mesh without the cage's holes is refused") {
     CHECK_THROWS_WITH(method_named(id).prepare(rest, nullptr),
                       Catch::Contains("must have 2 loops"));
 }
+
+}  // namespace holomorph::holes_test

@@ -1,15 +1,18 @@
 // The contract that every row of the table of methods fulfills, in both precisions.
-#include <catch2/catch.hpp>
 
 #include <Eigen/QR>
 #include <functional>
+#include <map>
+#include <tuple>
 
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "support/catch.h"
 #include "support/contract_setup.h"
+#include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::method_contract_test {
 
 namespace {
 
@@ -33,6 +36,21 @@ double tolerance(Precision precision) {
 
 bool is_linear(const Method& method) {
   return method.id == "cage" || method.id == "pins";
+}
+
+/// Every law uses the same setups and deformers, so each is prepared once.
+const Setup& shared_setup(const Method& method, Precision precision, Shape shape) {
+  static std::map<std::tuple<std::string, Precision, Shape>, Setup> cache;
+  const auto [at, is_new] = cache.try_emplace({method.id, precision, shape});
+  if (is_new) at->second = setup(method, precision, shape);
+  return at->second;
+}
+Deformer& shared_deformer(const Method& method, const Rest& rest) {
+  static std::vector<std::tuple<std::string, Rest, std::unique_ptr<Deformer>>> cache;
+  for (const auto& [id, same, deformer] : cache)
+    if (id == method.id && same == rest) return *deformer;
+  cache.emplace_back(method.id, rest, method.prepare(rest, nullptr));
+  return *std::get<2>(cache.back());
 }
 
 /// Adds a bent outline as the target of the cage's shape.
@@ -59,7 +77,7 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
           continue;
         INFO(method.id << (precision == Precision::full ? ", full" : ", single") << ", shape "
                        << static_cast<int>(shape));
-        check(method, setup(method, precision, shape), tolerance(precision));
+        check(method, shared_setup(method, precision, shape), tolerance(precision));
         // A fit to an outline sees the same polygon for raised edges as for straight ones.
         if (outlines == Outlines::none || !method.uses_outline || shape == Shape::raised ||
             shape == Shape::holes)
@@ -67,14 +85,13 @@ void for_every_method(Check check, Outlines outlines = Outlines::none) {
         INFO("with an outline");
         // The basis has hundreds of short segments, whose control points lie off the smooth curve.
         constexpr double kFineBasis = 1e-5;
-        check(method, outlined(setup(method, precision, shape)),
+        check(method, outlined(shared_setup(method, precision, shape)),
               std::max(kFineBasis, tolerance(precision)));
       }
 }
 
 SampledMap run(const Method& method, const Rest& rest, const Pose& pose) {
-  SampledMap map = method.prepare(rest, nullptr)->deform(pose, {true});
-  return map;
+  return shared_deformer(method, rest).deform(pose, {true});
 }
 
 VectorXc samples_of(const Rest& rest) {
@@ -105,7 +122,7 @@ TEST_CASE("Contract: the motions that a method reproduces give the same motion o
   });
 }
 
-TEST_CASE("Contract: scaling everything by a power of two changes nothing else", "[long]") {
+TEST_CASE("Contract: scaling everything by a power of two changes nothing else") {
   for_every_method(
       [](const Method& method, Setup s, double tolerance) {
         const SampledMap before = run(method, s.rest, s.pose);
@@ -133,7 +150,7 @@ TEST_CASE("Contract: scaling everything by a power of two changes nothing else",
       Outlines::too);
 }
 
-TEST_CASE("Contract: derivatives agree with finite differences", "[long]") {
+TEST_CASE("Contract: derivatives agree with finite differences") {
   for_every_method(
       [](const Method& method, Setup s, double) {
         if (s.rest.precision == Precision::single)
@@ -172,18 +189,18 @@ TEST_CASE("Contract: the shader's operator reproduces the map") {
 }
 
 TEST_CASE(
-    "Contract: the map at single points equals the map at samples, inside and on the boundary",
-    "[long]") {
+    "Contract: the map at single points equals the map at samples, inside and on the boundary") {
   for_every_method(
       [](const Method& method, const Setup& s, double tolerance) {
         for (const bool clockwise : {false, true}) {
           Rest rest = s.rest;
           Pose pose = s.pose;
           if (clockwise) rest.cage = reversed(rest.cage), pose.cage = reversed(pose.cage);
-          const auto deformer = method.prepare(rest, nullptr);
-          const auto points = deformer->point_map(pose);
+          if (clockwise && rest.precision == Precision::single && few_or_many(1, 0)) continue;
+          Deformer& deformer = shared_deformer(method, rest);
+          const auto points = deformer.point_map(pose);
           if (!points) return;
-          SampledMap map = deformer->deform(pose, {true});
+          const SampledMap map = deformer.deform(pose, {true});
           for (size_t i = 0; i < rest.samples.size(); i += 7) {
             const auto at = points->at(rest.samples[i]);
             CHECK(std::abs(at.f - map.f[static_cast<Index>(i)]) <= tolerance);
@@ -215,19 +232,19 @@ TEST_CASE("Contract: single precision is full precision, rounded") {
 TEST_CASE("Contract: bad input throws, and the deformer still works afterwards") {
   for_every_method(
       [](const Method& method, const Setup& s, double) {
-        const auto deformer = method.prepare(s.rest, nullptr);
-        SampledMap map = deformer->deform(s.pose, {});
+        Deformer& deformer = shared_deformer(method, s.rest);
+        SampledMap map = deformer.deform(s.pose, {});
         const VectorXc before = map.f;
         Pose bad = s.pose;
         bad.cage.segments[0][0] = {NAN, 0};
-        CHECK_THROWS_AS(deformer->deform(bad, {}), Error);
+        CHECK_THROWS_AS(deformer.deform(bad, {}), Error);
         bad = s.pose;
         bad.cage.segments[0].resize(s.rest.cage.degree(0) + 1, bad.cage.segments[0][0]);
-        CHECK_THROWS_AS(deformer->deform(bad, {}), Error);
+        CHECK_THROWS_AS(deformer.deform(bad, {}), Error);
         bad = s.pose;
         bad.cage.segments.pop_back();
-        CHECK_THROWS_AS(deformer->deform(bad, {}), Error);
-        map = deformer->deform(s.pose, {});
+        CHECK_THROWS_AS(deformer.deform(bad, {}), Error);
+        map = deformer.deform(s.pose, {});
         CHECK(map.f == before);
         Rest crossed = s.rest;
         crossed.cage = polygon_cage(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}});
@@ -290,7 +307,7 @@ TEST_CASE("Contract: a final answer that is asked to stop stops or is complete")
   }
 }
 
-TEST_CASE("Contract: a previous deformer does not change the map", "[long]") {
+TEST_CASE("Contract: a previous deformer does not change the map") {
   for_every_method(
       [](const Method& method, const Setup& s, double) {
         Rest fewer = s.rest;
@@ -299,7 +316,7 @@ TEST_CASE("Contract: a previous deformer does not change the map", "[long]") {
         const auto previous = method.prepare(fewer, nullptr);
         SampledMap a, b;
         a = method.prepare(s.rest, previous.get())->deform(s.pose, {true});
-        b = method.prepare(s.rest, nullptr)->deform(s.pose, {true});
+        b = run(method, s.rest, s.pose);
         CHECK(a.f == b.f);
         CHECK(a.fz == b.fz);
       },
@@ -499,3 +516,5 @@ TEST_CASE("Methods: an unknown id is refused, and the error names those that exi
   CHECK_THROWS_WITH(method_named("magic"),
                     Catch::Contains("magic") && Catch::Contains("cage, pins"));
 }
+
+}  // namespace holomorph::method_contract_test

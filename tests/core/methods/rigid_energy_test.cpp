@@ -2,14 +2,13 @@
 // mesh.
 #include "core/methods/rigid_energy.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::rigid_energy_test {
 
 namespace {
 
@@ -83,7 +82,7 @@ TEST_CASE("Rigid energy: where cycles end, published iterations do not move eith
   }
 }
 
-TEST_CASE("Rigid energy: a cycle is near the minimum on fine meshes, too", "[long]") {
+TEST_CASE("Rigid energy: a cycle is near the minimum on fine meshes, too") {
   for (const unsigned seed : seeds_of("rigid meshes", {1, 2})) {
     std::mt19937 random(seed);
     const double angle = 0.5 + 0.4 * random_complex(random).real();
@@ -149,3 +148,5 @@ TEST_CASE("Rigid energy: maps at rest stay, and rigid motions are found") {
     CHECK((f - moved).cwiseAbs().maxCoeff() < 1e-4);
   }
 }
+
+}  // namespace holomorph::rigid_energy_test

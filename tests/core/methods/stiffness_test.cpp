@@ -1,14 +1,13 @@
 // Painted stiffness: dabs add up, and stiff parts keep their shape better.
 #include "core/geometry/stiffness.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::stiffness_test {
 
 namespace {
 
@@ -110,3 +109,5 @@ TEST_CASE("Stiffness: only methods that use it receive it") {
   for (const Method& method : methods())
     CHECK(used_by(method, rest).stiffness.empty() == !method.uses_stiffness);
 }
+
+}  // namespace holomorph::stiffness_test

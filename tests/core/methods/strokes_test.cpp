@@ -1,5 +1,4 @@
 // Method `strokes`: curves on the picture are mapped onto other curves and slide along them.
-#include <catch2/catch.hpp>
 
 #include "bench/outlines.h"
 #include "core/error.h"
@@ -8,8 +7,9 @@
 #include "core/maps/distortion.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/mesher.h"
+#include "support/catch.h"
 
-using namespace holomorph;
+namespace holomorph::strokes_test {
 
 namespace {
 
@@ -193,3 +193,5 @@ TEST_CASE(
   const SampledMap still = run(outside, pose_of(outside, {Points{{300, 240}, {500, 240}}}));
   CHECK(std::abs(still.f[7] - outside.samples[7]) == 0);
 }
+
+}  // namespace holomorph::strokes_test

@@ -1,7 +1,6 @@
 // Maps of outlines onto outlines: the parts of the method, and the whole method.
 #include <Eigen/QR>
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "bench/outlines.h"
 #include "core/cauchy/cauchy.h"
@@ -13,9 +12,10 @@
 #include "core/outline/outline_start.h"
 #include "core/outline/riemann.h"
 #include "core/solvers/alternating_fit.h"
+#include "support/catch.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::outline_test {
 
 namespace {
 
@@ -290,8 +290,7 @@ TEST_CASE("Outline: random shapes are mapped onto random outlines without folds"
   }
 }
 
-TEST_CASE("Outline: shapes with limbs and corners are mapped onto each other without folds",
-          "[long]") {
+TEST_CASE("Outline: shapes with limbs and corners are mapped onto each other without folds") {
   const Points letter{{0, 0},     {200, 0},  {200, 60}, {60, 60},   {60, 130},  {170, 130},
                       {170, 190}, {60, 190}, {60, 260}, {200, 260}, {200, 320}, {0, 320}},
       bar{{-300, -30}, {300, -30}, {300, 30}, {-300, 30}}, round = circle(0, 100, 120);
@@ -476,8 +475,7 @@ TEST_CASE("Outline: a pin selects one of the conformal maps, and nothing folds")
   CHECK(std::arg((there - Complex(20, 10)) / std::polar(1.0, 2.0)) == Approx(0).margin(0.05));
 }
 
-TEST_CASE("Outline: between shapes with corners, pins reach their targets and nothing folds",
-          "[long]") {
+TEST_CASE("Outline: between shapes with corners, pins reach their targets and nothing folds") {
   const Points square{{0, 0}, {300, 0}, {300, 300}, {0, 300}},
       strip{{0, 0}, {1000, 0}, {1000, 200}, {0, 200}}, round = circle({150, 150}, 150, 60);
   struct Case {
@@ -590,8 +588,7 @@ TEST_CASE(
   CHECK(map_of({40, -24}, false) == end);
 }
 
-TEST_CASE("Outline: maps of curved cages stay near the outline for all degrees of softness",
-          "[long]") {
+TEST_CASE("Outline: maps of curved cages stay near the outline for all degrees of softness") {
   // Each curve needs at least as many samples as unknowns. Otherwise the map explodes between them.
   Cage curved = shapes::curved_star(9, 3, 0.15, 4);
   const Points around = outlines::random(51, false, 300);
@@ -640,3 +637,5 @@ TEST_CASE("Outline: without an outline, nothing moves at rest") {
     REQUIRE(onto.map.f[static_cast<Index>(i)] == onto.rest.samples[i]);
   CHECK(onto.map.note.find("outline") != std::string::npos);
 }
+
+}  // namespace holomorph::outline_test

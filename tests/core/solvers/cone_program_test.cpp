@@ -3,12 +3,12 @@
 
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "core/error.h"
+#include "support/catch.h"
 
-using namespace holomorph;
+namespace holomorph::cone_program_test {
 
 namespace {
 
@@ -189,7 +189,7 @@ ConeSolution from(const VectorXd& x) {
 
 }  // namespace
 
-TEST_CASE("Cone program: its minimum equals Ipopt's", "[long]") {
+TEST_CASE("Cone program: its minimum equals Ipopt's") {
   int compared = 0;
   for (unsigned seed = 1; seed <= 8; ++seed)
     for (const bool with_fit : {false, true}) {
@@ -277,3 +277,5 @@ TEST_CASE("Cone program: only heights, or only disks") {
   CHECK(tightest < 1);
   CHECK(tightest > 0.999);
 }
+
+}  // namespace holomorph::cone_program_test

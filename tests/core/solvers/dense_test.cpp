@@ -1,13 +1,13 @@
 // Products from several threads at once, and large ones that are shared among all cores.
 #include "core/solvers/dense.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <thread>
 
+#include "support/catch.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::dense_test {
 
 namespace {
 
@@ -37,7 +37,7 @@ TEST_CASE("Threads that multiply at the same time do not disturb each other") {
   }
 }
 
-TEST_CASE("Large products are the sums of their terms", "[long]") {
+TEST_CASE("Large products are the sums of their terms") {
   for (const unsigned seed : seeds_of("large products", {1, 2})) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
@@ -102,3 +102,5 @@ TEST_CASE("Triangular factors and solutions reproduce the matrix") {
     CHECK((r.lazyProduct(solve_upper(r, right)) - right).cwiseAbs().maxCoeff() < 1e-8);
   }
 }
+
+}  // namespace holomorph::dense_test

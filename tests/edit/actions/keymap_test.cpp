@@ -1,13 +1,12 @@
 // Keys: key names can be parsed back, and only the user's changes are stored.
 #include "edit/actions/keymap.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/error.h"
 #include "edit/key_focus.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::keymap_test {
 
 namespace {
 
@@ -138,3 +137,5 @@ TEST_CASE("Only view actions run during a gesture") {
   }
   CHECK(count == 6);
 }
+
+}  // namespace holomorph::keymap_test

@@ -1,15 +1,14 @@
 // The menus contain every action once, in short groups.
 #include "edit/actions/menus.h"
 
-#include <catch2/catch.hpp>
-
 #include <map>
 #include <string_view>
 
 #include "edit/actions/actions.h"
 #include "edit/actions/icons.h"
+#include "support/catch.h"
 
-using namespace holomorph;
+namespace holomorph::menus_test {
 
 namespace {
 
@@ -73,3 +72,5 @@ TEST_CASE("An icon is the character of its place in the sorted list") {
   CHECK(std::string_view(icon_named("add")) == "\uE000");
   CHECK(std::string_view(icon_named("angle")) == "\uE001");
 }
+
+}  // namespace holomorph::menus_test

@@ -1,11 +1,11 @@
 // Editing curved segments: tangents, smooth points, degrees, drawing.
-#include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
 #include "edit/edits/curve_edits.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::curve_test {
 
 namespace {
 
@@ -163,3 +163,5 @@ TEST_CASE("Curves of the rest shape are edited like posed ones, and an unposed p
   CHECK(desk.steps() == steps);  // refused
   CHECK_FALSE(desk.workspace.messages.toasts.empty());
 }
+
+}  // namespace holomorph::curve_test

@@ -1,13 +1,12 @@
 // Holes are drawn with the pen, moved, deleted and filled, in one step each, and keyframes follow.
 #include "edit/edits/hole_edits.h"
 
-#include <catch2/catch.hpp>
-
 #include "edit/actions/actions.h"
 #include "scene/keyframes.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::hole_edits_test {
 
 namespace {
 
@@ -151,3 +150,5 @@ TEST_CASE("Fill holes removes the selected holes, or all") {
   CHECK(desk.deformation().rest.holes.empty());
   CHECK_FALSE(desk.workspace.actions.named("cage.fill").enabled(desk.workspace));
 }
+
+}  // namespace holomorph::hole_edits_test

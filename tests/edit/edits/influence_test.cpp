@@ -1,10 +1,10 @@
 // Drags that move more than one handle: soft selection, symmetry, and the box around the selection.
-#include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::influence_test {
 
 namespace {
 
@@ -271,3 +271,5 @@ TEST_CASE("Pins are brought forward and sent back, and repeated changes are one 
   run("edit.pin_down", desk.workspace);
   CHECK(desk.deformation().pins[0].depth == 2);
 }
+
+}  // namespace holomorph::influence_test

@@ -1,15 +1,15 @@
 // Editing the rest shape: points that are not posed follow, posed points keep their pose.
-#include <catch2/catch.hpp>
 
+#include "edit/edits/rest_edits.h"
 #include "edit/actions/actions.h"
 #include "edit/edits/curve_edits.h"
-#include "edit/edits/rest_edits.h"
 #include "edit/tools/transform_box.h"
 #include "scene/keyframes.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::rest_edits_test {
 
 namespace {
 
@@ -110,3 +110,5 @@ TEST_CASE("With auto-key, an edit of the rest shape sets no keyframe") {
   desk.drag({200, 200}, {220, 230});
   CHECK(desk.deformation().keyframes.empty());
 }
+
+}  // namespace holomorph::rest_edits_test

@@ -1,6 +1,5 @@
 // The Angles tool (key A): selecting, turning and opening corners, edge tensions, and corners after
 // points are inserted or deleted.
-#include <catch2/catch.hpp>
 
 #include "core/error.h"
 #include "core/mesh/mesher.h"
@@ -8,9 +7,10 @@
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/method_edits.h"
 #include "scene/formats/scene_json.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::angle_tool_test {
 
 namespace {
 
@@ -149,3 +149,5 @@ TEST_CASE("Corners: opening works for a clockwise cage, too") {
   };
   CHECK(angle(f(0), f(1), f(2)) > angle(clockwise[0], clockwise[1], clockwise[2]) + 0.1);
 }
+
+}  // namespace holomorph::angle_tool_test

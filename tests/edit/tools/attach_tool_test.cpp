@@ -1,13 +1,13 @@
 // Attaching the edited layer to another one with the pointer.
-#include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
 #include "edit/tools/layer_drag.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::attach_tool_test {
 
 namespace {
 
@@ -193,3 +193,5 @@ TEST_CASE("A layer without keyframes is posed while the others keep the displaye
   CHECK(w.shown.timeline.time == 0.5);
   CHECK(w.shown.time_of_layers() == 0.5);
 }
+
+}  // namespace holomorph::attach_tool_test

@@ -1,15 +1,14 @@
 // Drags of a film's bar on the timeline.
 #include "edit/tools/clip_drag.h"
 
-#include <catch2/catch.hpp>
-
 #include "edit/actions/actions.h"
 #include "scene/clips.h"
 #include "scene/layers.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::clip_drag_test {
 
 namespace {
 
@@ -121,3 +120,5 @@ TEST_CASE("A trimmed film keeps the times of its other frames") {
     }
   }
 }
+
+}  // namespace holomorph::clip_drag_test

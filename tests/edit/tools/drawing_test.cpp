@@ -1,11 +1,11 @@
 // Strokes and outlines: drawing and bending them, how the map follows, and how folds are reported.
-#include <catch2/catch.hpp>
 
 #include "edit/actions/actions.h"
 #include "edit/tools/tool.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::drawing_test {
 
 namespace {
 
@@ -354,3 +354,5 @@ TEST_CASE(
   CHECK(desk.tool().key(Key::escape, desk.workspace));
   CHECK_FALSE(desk.tool().busy());
 }
+
+}  // namespace holomorph::drawing_test

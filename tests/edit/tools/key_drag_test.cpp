@@ -1,13 +1,12 @@
 // Drags of keyframes on the timeline.
 #include "edit/tools/key_drag.h"
 
-#include <catch2/catch.hpp>
-
 #include "edit/actions/actions.h"
 #include "scene/layers.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::key_drag_test {
 
 namespace {
 
@@ -137,3 +136,5 @@ TEST_CASE("key actions: duplicate at the current time, delete all in one step") 
   CHECK(keyed.desk.steps() == steps + 1);
   CHECK(keyed.timeline.keys.empty());
 }
+
+}  // namespace holomorph::key_drag_test

@@ -1,15 +1,14 @@
 // The Select tool drags the layer under the pointer.
 #include "edit/tools/layer_drag.h"
 
-#include <catch2/catch.hpp>
-
 #include "edit/actions/actions.h"
 #include "scene/keyframes.h"
 #include "scene/layers.h"
+#include "support/catch.h"
 #include "support/desk.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::layer_drag_test {
 
 namespace {
 
@@ -152,3 +151,5 @@ TEST_CASE("A layer is moved as a whole: its pose and its keyframes, but not its 
     CHECK(std::abs(back.strokes[0].pose[1] - deformation.strokes[0].pose[1]) < 1e-9);
   }
 }
+
+}  // namespace holomorph::layer_drag_test

@@ -1,11 +1,11 @@
 // The orbit camera: rigid motions, and points that follow the pointer.
 #include "edit/tools/orbit.h"
+#include "support/catch.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
 
-using namespace holomorph;
+namespace holomorph::orbit_test {
 
 namespace {
 
@@ -100,3 +100,5 @@ TEST_CASE(
   near.zoom(1e-9);
   CHECK(near.distance < 1e3 * camera.radius);
 }
+
+}  // namespace holomorph::orbit_test

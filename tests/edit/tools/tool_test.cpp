@@ -1,5 +1,4 @@
 // Tools and actions without a window. Gestures are sequences of inputs.
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "core/error.h"
@@ -7,9 +6,10 @@
 #include "edit/edits/method_edits.h"
 #include "edit/tools/tool.h"
 #include "scene/auto_cage.h"
+#include "support/catch.h"
 #include "support/desk.h"
 
-using namespace holomorph;
+namespace holomorph::tool_test {
 
 namespace {
 
@@ -365,3 +365,5 @@ TEST_CASE("The action table: ids and keys are unique, and every action has a lab
         nullptr);  // nothing is selected
   CHECK(label_with_keys(desk.workspace.actions.named("edit.undo")) == "Undo (Ctrl+Z)");
 }
+
+}  // namespace holomorph::tool_test

@@ -1,15 +1,14 @@
 // A drawing that is bent by the identity or by a turn looks as before. The judge is rsvg-convert.
 #include "scene/formats/bent_drawing.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/error.h"
 #include "core/geometry/affine.h"
 #include "scene/formats/image_formats.h"
 #include "scene/formats/path_data.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 
-using namespace holomorph;
+namespace holomorph::drawing_test {
 
 namespace {
 
@@ -202,3 +201,5 @@ TEST_CASE("Arcs are within 5e-6 of the ellipse") {
       CHECK(length == Approx(large ? 459 : 153).epsilon(0.02));
     }
 }
+
+}  // namespace holomorph::drawing_test

@@ -1,14 +1,14 @@
 // Files with layers: what is written is read again, and nothing that a file claims is believed.
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "scene/budget.h"
 #include "scene/formats/layered.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "support/pictures.h"
 #include "support/seeds.h"
 
-using namespace holomorph;
+namespace holomorph::layered_test {
 
 namespace {
 
@@ -282,3 +282,5 @@ TEST_CASE("Damaged files with layers give an error that says so") {
   CHECK_THAT(error_message_of([&] { decode_layer(psd_of({{.name = "a"}}), "id:9", "a", pixels); }),
              Catch::Contains("no longer exists"));
 }
+
+}  // namespace holomorph::layered_test

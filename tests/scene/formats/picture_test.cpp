@@ -10,20 +10,20 @@
 #include <lcms2.h>
 #include <png.h>
 
-#include <catch2/catch.hpp>
 #include <cstring>
 
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/image.h"
 #include "scene/pictures.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "support/folder.h"
 #include "support/pictures.h"
 #include "support/seeds.h"
 #include "system/new_file.h"
 
-using namespace holomorph;
+namespace holomorph::picture_test {
 
 namespace {
 
@@ -297,3 +297,5 @@ TEST_CASE("All pictures of a scene share one pixel budget") {
   CHECK_THAT(error_message_of([] { decode_image(bmp_file(Image(200, 51)), "a.bmp"); }),
              Catch::Contains("--max-pixels"));
 }
+
+}  // namespace holomorph::picture_test

@@ -1,12 +1,12 @@
 // Cages written to SVG files and read back.
-#include <catch2/catch.hpp>
 
 #include "core/error.h"
 #include "scene/formats/svg_path.h"
+#include "support/catch.h"
 #include "support/complaint.h"
 #include "support/shapes.h"
 
-using namespace holomorph;
+namespace holomorph::svg_test {
 
 TEST_CASE("SVG paths: all commands, absolute and relative, give the same loop") {
   const auto loop = [](const std::string& d) {
@@ -127,3 +127,5 @@ TEST_CASE(
   for (const Complex& z : outline_of(deformation.pose, 500))
     CHECK(nearest_on_polygon(fine, z).distance < allowed);
 }
+
+}  // namespace holomorph::svg_test

@@ -1,0 +1,24 @@
+"""unittest.main that prints the processor time of each test, with that of the programs it ran."""
+import resource
+import sys
+import unittest
+
+
+def used():
+    return sum(u.ru_utime + u.ru_stime for u in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))
+
+
+class TimedResult(unittest.TextTestResult):
+    def startTest(self, test):
+        self.start = used()
+        super().startTest(test)
+
+    def stopTest(self, test):
+        super().stopTest(test)
+        self.stream.writeln(f"    {used() - self.start:.2f} s {test.id()}")
+
+
+def main(words):
+    """Runs the tests that `words` name, or all."""
+    runner = unittest.TextTestRunner(verbosity=2, warnings="ignore", resultclass=TimedResult)
+    unittest.main(argv=[sys.argv[0], *words], testRunner=runner)
