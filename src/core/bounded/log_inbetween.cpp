@@ -285,6 +285,7 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
       if (!certifies_with(alone))
         certifies_with(owner->constrained_change(closed, between(least, alone, 0.5), false));
     }
+    if (!blend.certified) sum.change = least;
   }
   MapOnMesh::Values values = owner->on_mesh(sum);
   blend.first = std::move(values.first);
