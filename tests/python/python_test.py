@@ -358,10 +358,10 @@ class Resources(Folder):
 
         calls(300)
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        count = few_or_many(1000, 2500)
+        count = few_or_many(1250, 2500)
         calls(count)  # of four functions
         grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
-        self.assertLess(grown, max(2000, 1.6 * count), "kilobytes; a leak of the results of map() would be 3.2 for each call")
+        self.assertLess(grown, 1.6 * count, "kilobytes; a leak of the results of map() would be twice that")
 
     def test_other_threads_run_meanwhile(self):
         scene = self.scene("angles")

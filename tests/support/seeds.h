@@ -27,9 +27,13 @@ inline std::vector<unsigned> seeds_of(const char* test, std::vector<unsigned> fi
   return seeds;
 }
 
+/// Whether scripts/soak runs the test, which has time for all cases.
+inline bool soaks() {
+  return std::getenv("HOLOMORPH_FRESH") != nullptr;
+}
 /// How often to repeat something: `few` times in scripts/test, `many` times in scripts/soak.
 inline int few_or_many(int few, int many) {
-  return std::getenv("HOLOMORPH_FRESH") ? many : few;
+  return soaks() ? many : few;
 }
 
 /// A random number with both parts between -1 and 1. The order in which they are drawn does not
