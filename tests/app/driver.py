@@ -1,22 +1,19 @@
 # Drives the real program on a virtual display with real input events.
 import json
 import os
-import shutil
 import subprocess
-import tempfile
+import sys
 import time
 
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+from verbs import Session, Verbs  # noqa: E402
 
-class Display:
-    """A virtual display, and a program on it with its own home directory."""
+
+class Display(Session):
+    """A virtual display, and a program on it."""
 
     def __init__(self, size="1400x900", home=None):
-        self.folder = tempfile.mkdtemp(prefix="holomorph-gui-")
-        self.home = home or self.folder
-        if not home:  # hides the first steps, which would cover what tests click on
-            os.makedirs(self.home + "/config/holomorph")
-            with open(self.home + "/config/holomorph/preferences.json", "w") as file:
-                json.dump({"hints": False}, file)
+        super().__init__(home)
         read, write = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", size + "x24", "-nolisten", "tcp"],
@@ -26,36 +23,23 @@ class Display:
         while not number.endswith(b"\n"):
             number += os.read(read, 16)
         os.close(read)
-        self.environment = dict(os.environ, DISPLAY=":" + number.decode().strip(), HOME=self.home,
-                                XDG_CONFIG_HOME=self.home + "/config", XDG_STATE_HOME=self.home + "/state",
-                                LIBGL_ALWAYS_SOFTWARE="1", ASAN_OPTIONS="detect_leaks=0")
+        self.environment |= {"DISPLAY": ":" + number.decode().strip(), "LIBGL_ALWAYS_SOFTWARE": "1",
+                             "ASAN_OPTIONS": "detect_leaks=0"}
         self.environment.pop("WAYLAND_DISPLAY", None)
-        self.log = open(self.folder + "/log", "w")
 
     def run(self, *command):
         self.process = subprocess.Popen(command, env=self.environment, stdout=self.log, stderr=self.log, cwd=self.folder)
 
-    def messages(self):
-        self.log.flush()
-        with open(self.folder + "/log") as file:
-            return file.read()
-
     def screenshot(self, path):
         subprocess.run(["import", "-window", "root", path], env=self.environment, check=True)
 
-    def __enter__(self):
-        return self
-
     def __exit__(self, *_):
-        self.process.kill()
-        self.process.wait()
+        super().__exit__()
         self.server.kill()
         self.server.wait()
-        self.log.close()
-        shutil.rmtree(self.folder, ignore_errors=True)
 
 
-class Editor(Display):
+class Editor(Verbs, Display):
     """The editor on a display. `program` writes its state into a file (real_editor.cpp)."""
 
     def __init__(self, program, arguments=(), size="1400x900", home=None, settles=True):
@@ -97,17 +81,8 @@ class Editor(Display):
         position = list(map(int, words[1:])) if words[0] == "mousemove" and len(words) == 3 else None
         self.settle(since, words.count("mousedown") + words.count("mouseup"), position)
 
-    def pixel(self, x, y):
-        """The window position of a plane point, in pixels, which is also its position on the display."""
-        s = self.state()
-        return (round(s["left"] + s["width"] / 2 + (x - s["center"][0]) * s["zoom"]),
-                round(s["top"] + s["height"] / 2 - (y - s["center"][1]) * s["zoom"]))
-
     def move(self, x, y):
         self.xdotool("mousemove", *self.pixel(x, y))
-
-    def click(self, x, y, button=1):
-        self.press(*self.pixel(x, y), button)
 
     def press(self, x, y, button=1):
         """Clicks at a window position."""
@@ -127,26 +102,6 @@ class Editor(Display):
             before = box
             time.sleep(0.1)
         raise AssertionError(f"there is no item '{name}'; the items are {sorted((self.state() or {'items': {}})['items'])}")
-
-    def press_item(self, name):
-        """Clicks a named item, such as a button."""
-        self.press(*self.item(name))
-
-    def drag(self, start, end, steps=6):
-        self.move(*start)
-        self.xdotool("mousedown", 1)
-        for i in range(1, steps + 1):
-            t = i / steps
-            self.move(start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1]))
-        self.xdotool("mouseup", 1)
-
-    def draw(self, line):
-        """Moves the pointer along these points with the button down."""
-        self.move(*line[0])
-        self.xdotool("mousedown", 1)
-        for point in line[1:]:
-            self.move(*point)
-        self.xdotool("mouseup", 1)
 
     def drop(self, path, x, y):
         """Drops a file on the window as a file manager does (the XDND protocol, version 5)."""

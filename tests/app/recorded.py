@@ -1,11 +1,10 @@
 # Drives the editor without a display, with the same verbs as driver.Editor. Time passes only when a test says so.
 import json
-import os
-import shutil
 import subprocess
-import tempfile
 import threading
 import time
+
+from verbs import Session, Verbs
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
 # GLFW's codes of the keys that xdotool calls by these names.
@@ -25,16 +24,9 @@ RELEASE, PRESS = 0, 1
 BUTTONS = {1: 0, 2: 2, 3: 1}
 
 
-class RecordedEditor:
-    def __init__(self, program, arguments=(), size="1280x800", home=None, settles=True):
-        self.folder = tempfile.mkdtemp(prefix="holomorph-story-")
-        self.home = home or self.folder
-        if not home:  # hides the first steps, which would cover what tests click on
-            os.makedirs(self.home + "/config/holomorph")
-            with open(self.home + "/config/holomorph/preferences.json", "w") as file:
-                json.dump({"hints": False}, file)
-        self.environment = dict(os.environ, HOME=self.home, XDG_CONFIG_HOME=self.home + "/config", XDG_STATE_HOME=self.home + "/state")
-        self.log = open(self.folder + "/log", "w")
+class RecordedEditor(Verbs, Session):
+    def __init__(self, program, arguments=(), size="1280x800", home=None):
+        super().__init__(home)
         width, height = size.split("x")
         self.process = subprocess.Popen([program, width, height, *arguments], env=self.environment, cwd=self.folder, text=True,
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log)
@@ -42,16 +34,10 @@ class RecordedEditor:
         self.now = None
         self.answer()
 
-    def __enter__(self):
-        return self
-
     def __exit__(self, *_):
-        self.process.kill()
-        self.process.wait()
+        super().__exit__()
         self.process.stdin.close()
         self.process.stdout.close()
-        self.log.close()
-        shutil.rmtree(self.folder, ignore_errors=True)
 
     def answer(self):
         watch = threading.Timer(120, self.process.kill)  # an editor that never waits for input
@@ -89,11 +75,6 @@ class RecordedEditor:
             if time.time() > end:
                 raise AssertionError(f"timed out while waiting for {what}; the state is {self.now}; " + self.messages())
             self.pause(0.05)
-
-    def messages(self):
-        self.log.flush()
-        with open(self.folder + "/log") as file:
-            return file.read()
 
     def xdotool(self, *words, pause=0.12):
         """Understands the words of xdotool that the tests use."""
@@ -168,18 +149,9 @@ class RecordedEditor:
             events.append(["key", each, RELEASE, mods])
         return events
 
-    def pixel(self, x, y):
-        """The window position of a plane point, in pixels."""
-        s = self.now
-        return (round(s["left"] + s["width"] / 2 + (x - s["center"][0]) * s["zoom"]),
-                round(s["top"] + s["height"] / 2 - (y - s["center"][1]) * s["zoom"]))
-
     def move(self, x, y):
         self.ready()
         self.xdotool("mousemove", *self.pixel(x, y), pause=0.02)
-
-    def click(self, x, y, button=1):
-        self.press(*self.pixel(x, y), button)
 
     def press(self, x, y, button=1):
         self.ready()
@@ -196,20 +168,6 @@ class RecordedEditor:
             before = box
             self.pause(0.05)
         raise AssertionError(f"there is no item '{name}'; the items are {sorted(self.now['items'])}")
-
-    def press_item(self, name):
-        self.press(*self.item(name))
-
-    def drag(self, start, end, steps=6):
-        self.draw([tuple(a + k / steps * (b - a) for a, b in zip(start, end)) for k in range(steps + 1)])
-
-    def draw(self, line):
-        """Moves the pointer along these points with the button down."""
-        self.move(*line[0])
-        self.xdotool("mousedown", 1)
-        for point in line[1:]:
-            self.move(*point)
-        self.xdotool("mouseup", 1)
 
     def drop(self, path, x, y):
         self.send(["move", x, y], ["drop", path])
