@@ -2,23 +2,29 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
+
+#include "bench/table.h"
 
 namespace holomorph::bench {
 
 struct Result {
-  std::string name, unit;
+  Row row;
   double median = 0;
-  std::optional<double> goal = {};  ///< at most
   int runs = 0;
   std::string detail = {};  ///< further results, as text
 };
 
-/// Runs every benchmark whose name contains `filter`. Calls `report` with each result as soon as
-/// the benchmark has finished.
-std::vector<Result> measured(const std::string& filter,
-                             const std::function<void(const Result&)>& report);
+enum class Extent { usual, with_long };
+
+/// The rows that are measured: those whose name contains `filter`. Without a filter, long
+/// benchmarks are included only by Extent::with_long. The published methods that are compared on a
+/// folded bar are one row here.
+std::vector<Row> chosen_rows(const std::string& filter, Extent extent);
+
+/// Measures these rows. Calls `report` with each result as soon as it is known. Cost: without a
+/// filter, less than three minutes on two cores.
+void measure(const std::string& filter, Extent extent,
+             const std::function<void(const Result&)>& report);
 
 }  // namespace holomorph::bench

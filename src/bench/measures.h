@@ -1,16 +1,66 @@
-// The benchmarks for bounded maps, outlines, angles, keyframes and strokes, and the timer that all
-// benchmarks use.
+// The measurements behind the table of benchmarks, and the timer that they use. Unless a comment
+// says otherwise, they return medians of `runs` runs in the unit of their name.
 #pragma once
 
 #include <functional>
 #include <string>
 
-#include "core/geometry/cage.h"
+#include "bench/bench.h"
+#include "core/cauchy/cauchy_array.h"
 
 namespace holomorph::bench {
 
 /// The median time of `work` in milliseconds, after one warm-up run.
 double median_ms(int runs, const std::function<void()>& work);
+
+/// AVX2 where the processor has it.
+Kernel avx2_or_portable();
+/// Coordinates of 15000 points for 100 edges, per point and edge. T is float or double.
+template <class T>
+double coordinates_ns(Kernel kernel, int order, int runs);
+/// Points in the cage in random order, per point and edge.
+double random_coordinates_ns(int runs);
+double scalar_log_ns(int runs);
+/// The time that it takes, per point and edge, to compute the coordinates of a straight cage whose
+/// pose has this degree.
+double raised_coordinates_ns(int degree, int runs);
+double coordinates_ms(int runs);
+/// Points in a picture of 1000 x 1000 pixels, and their derivatives, as Python gets them.
+double million_points_ms(int runs);
+
+/// The composition through an intermediate polygon (Lin and Chen 2024, section 4.3): u2 after the
+/// inverse of u1, where u1 maps the polygon of the segments' endpoints to the curved rest cage.
+/// Measures what percentage of the domain's samples have no preimage under u1, and how long it
+/// takes to set up the composition and find the preimages.
+struct PolygonRoute {
+  double missing_percent = 0, milliseconds = 0;
+};
+PolygonRoute polygon_route();
+/// The time to find 10000 preimages for a pose of 20 cubic segments, without setting up the
+/// inverse.
+double inverse_ms(int runs);
+
+double mesh_ms(int runs);
+double curved_prepare_ms(int runs);
+double prepare_ms(int points, int runs);
+/// The time that a method needs to prepare its map of a cage of this many points, on a mesh of
+/// about 9000 vertices that exists already.
+double prepare_method_ms(const char* method, int points, int runs);
+double add_pin_ms(int runs);
+double frame_ms(int runs);
+
+/// The memory that the process has with a picture and a map. Measures nothing else if it is the
+/// first benchmark.
+double memory_mb();
+/// The time of the slowest method for the map at every pixel of a picture of 2000 x 2000, which a
+/// cage of 32 points and three pins bend.
+double st_map_ms();
+double unwarp_ms();
+double export_ms(int side, int vertices, int runs, int threads);
+/// The time per frame of a film of 100 frames of 1000 x 1000 pixels with three keyframes, on all
+/// cores, from preparation to pixels.
+double film_frame_ms(const char* method);
+double auto_cage_ms(int runs);
 
 /// Results for 30 random pairs of smooth and limbed outlines: the number of targets that are
 /// reached without folds, and the median time. A target is reached if f' has no zero (turning
@@ -58,6 +108,16 @@ struct BoundedDrag {
   int unproved = 0;
 };
 BoundedDrag bounded_drag(const Cage& cage, const std::string& reference);
+/// The same for a bar that follows its pins, without a method to follow.
+BoundedDrag bar_drag();
+/// The median time to project and prove the slowest of the known maps, from a cold start.
+double bounded_solve_ms(int vertices, int samples, int runs);
+double bounded_cold_ms(int runs);
+
+/// The name prefix of the rows that project the same folded bar with each published method. They
+/// have the time and, as text, properties of the map.
+inline constexpr const char* kCompared = "compared on a folded bar, 800 mesh vertices: ";
+void compare_on_folded_bar(const std::function<void(const Result&)>& report);
 
 /// Figures for a drag of 120 frames of a puppet with 10 pins and 10k mesh vertices, with proof and
 /// evaluation on the mesh, for a basis with about this many vertices.

@@ -24,18 +24,6 @@ Pair pair_of(unsigned seed) {
 
 }  // namespace
 
-double median_ms(int runs, const std::function<void()>& work) {
-  work();
-  std::vector<double> times;
-  for (int i = 0; i < runs; ++i) {
-    const double start = now_ms();
-    work();
-    times.push_back(now_ms() - start);
-  }
-  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
-  return times[runs / 2];
-}
-
 OutlineFigures outline_figures(bool published) {
   OutlineSettings settings;
   if (published) {

@@ -59,33 +59,38 @@ Machine this_machine() {
   return machine;
 }
 
+std::string line_of(const Row& row) {
+  return row.name + (row.goal ? "  (goal " + number(*row.goal) + " " + row.unit + ")" : "");
+}
+
 std::string line_of(const Result& result) {
+  const Row& row = result.row;
   char text[200];
-  std::snprintf(text, sizeof text, "%-86s %9.3f %s", result.name.c_str(), result.median,
-                result.unit.c_str());
+  std::snprintf(text, sizeof text, "%-86s %9.3f %s", row.name.c_str(), result.median,
+                row.unit.c_str());
   std::string line = text;
-  if (result.goal) {
-    std::snprintf(text, sizeof text, "  (goal %g%s)", *result.goal,
-                  result.median <= *result.goal ? "" : ", missed");
+  if (row.goal) {
+    std::snprintf(text, sizeof text, "  (goal %g%s)", *row.goal,
+                  result.median <= *row.goal ? "" : ", missed");
     line += text;
   }
   if (!result.detail.empty()) line += "  " + result.detail;
   return line;
 }
 
-std::string json_of(const std::vector<Result>& results, const Machine& machine) {
-  std::string json = "{\n  \"machine\": {\"processor\": " + quoted(machine.processor) +
-                     ", \"cores\": " + std::to_string(machine.cores) +
-                     ", \"load\": " + number(machine.load) +
-                     "},\n  \"commit\": " + quoted(machine.commit) + ",\n  \"rows\": [";
-  for (const Result& result : results)
-    json += std::string(&result == results.data() ? "\n" : ",\n") +
-            "    {\"name\": " + quoted(result.name) + ", \"unit\": " + quoted(result.unit) +
-            ", \"median\": " + number(result.median) +
-            ", \"goal\": " + (result.goal ? number(*result.goal) : "null") +
-            ", \"runs\": " + std::to_string(result.runs) +
-            ", \"detail\": " + quoted(result.detail) + "}";
-  return json + "\n  ]\n}\n";
+std::string json_head(const Machine& machine) {
+  return "{\n  \"machine\": {\"processor\": " + quoted(machine.processor) +
+         ", \"cores\": " + std::to_string(machine.cores) + ", \"load\": " + number(machine.load) +
+         "},\n  \"commit\": " + quoted(machine.commit) + ",\n  \"rows\": [";
+}
+
+std::string json_row(const Result& result, bool is_first) {
+  const Row& row = result.row;
+  return std::string(is_first ? "\n" : ",\n") + "    {\"name\": " + quoted(row.name) +
+         ", \"unit\": " + quoted(row.unit) + ", \"median\": " + number(result.median) +
+         ", \"goal\": " + (row.goal ? number(*row.goal) : "null") +
+         ", \"runs\": " + std::to_string(result.runs) + ", \"detail\": " + quoted(result.detail) +
+         "}";
 }
 
 Medians medians_of(const std::string& text, const std::string& name) {
@@ -105,7 +110,7 @@ Medians medians_of(const std::string& text, const std::string& name) {
 }
 
 std::string change_since(const Medians& before, const Result& result) {
-  const auto was = before.find(result.name);
+  const auto was = before.find(result.row.name);
   if (was == before.end()) return "";
   char text[120];
   if (was->second > 0)

@@ -16,12 +16,16 @@ struct Machine {
 Machine this_machine();
 
 std::string line_of(const Result& result);
-/// An object with the machine and a list of rows.
-std::string json_of(const std::vector<Result>& results, const Machine& machine);
+std::string line_of(const Row& row);
+/// The three parts of an object with the machine and a list of rows: what precedes the rows, each
+/// row, and what follows. Written one after the other, they keep the rows of a run that is stopped.
+std::string json_head(const Machine& machine);
+std::string json_row(const Result& result, bool is_first);
+inline constexpr const char kJsonTail[] = "\n  ]\n}\n";
 
 /// The medians of earlier results, by their names.
 using Medians = std::map<std::string, double>;
-/// The medians in a text that json_of wrote. Throws Error{bad_input} if it has no list of rows.
+/// The medians in a text of these parts. Throws Error{bad_input} if it has no list of rows.
 /// `name` is used in messages.
 Medians medians_of(const std::string& text, const std::string& name);
 /// What has become of a result, such as "  (was 12.3, now 0.52 times as much)"; empty if there was

@@ -1,7 +1,7 @@
-// Wavy cages around a center.
+// Wavy cages around a center, and scenes with them.
 #pragma once
 
-#include "core/geometry/cage.h"
+#include "scene/deformation.h"
 
 namespace holomorph::bench {
 
@@ -26,6 +26,15 @@ inline Cage wavy_curves(int n, int degree, double bulge) {
           a + side * Complex(static_cast<double>(m) / degree, m % 2 ? bulge : -bulge));
   }
   return cage;
+}
+
+/// A deformation with this polygon as its cage, which the pose bends a little.
+inline Deformation scene_with(const Points& polygon) {
+  Deformation deformation;
+  deformation.rest = deformation.pose = polygon_cage(polygon);
+  for (Points& segment : deformation.pose.segments)
+    segment[0] += 20.0 * std::sin(segment[0].imag() / 100);
+  return deformation;
 }
 
 }  // namespace holomorph::bench

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <optional>
 
 #include "bench/report.h"
 #include "cli/progress.h"
@@ -105,23 +106,33 @@ void run(const NewCommand& command) {
 }
 
 void run(const BenchCommand& command) {
-  // If standard error is a terminal but the table goes elsewhere, show each line there as well.
-  const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
-  const bench::Machine machine = bench::this_machine();
+  const auto extent = command.with_long ? bench::Extent::with_long : bench::Extent::usual;
+  const std::vector<bench::Row> rows = bench::chosen_rows(command.filter, extent);
+  if (rows.empty())
+    throw Error(ErrorKind::bad_input, "--filter: no benchmark name contains '" + command.filter +
+                                          "'; holomorph bench --list shows the names");
+  if (command.list) {
+    for (const bench::Row& row : rows) write_standard_output(bench::line_of(row) + "\n");
+    return;
+  }
   bench::Medians before;
   if (!command.against.empty())
     before = bench::medians_of(read_file(command.against), command.against.string());
-  const std::vector<bench::Result> results =
-      bench::measured(command.filter, [&](const bench::Result& result) {
-        const std::string line =
-            bench::line_of(result) + bench::change_since(before, result) + "\n";
-        if (!command.json) write_standard_output(line);
-        if (shows_progress) std::cerr << line;
-      });
-  if (results.empty())
-    throw Error(ErrorKind::bad_input, "--filter: no benchmark name contains '" + command.filter +
-                                          "'; omit --filter to run all benchmarks");
-  if (command.json) write_standard_output(bench::json_of(results, machine));
+  // If standard error is a terminal but the table goes elsewhere, show each line there as well.
+  const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
+  std::optional<LastOutput> tail;
+  if (command.json) {
+    write_standard_output(bench::json_head(bench::this_machine()));
+    tail.emplace(bench::kJsonTail);
+  }
+  bool is_first = true;
+  bench::measure(command.filter, extent, [&](const bench::Result& result) {
+    const std::string line = bench::line_of(result) + bench::change_since(before, result) + "\n";
+    write_standard_output(command.json ? bench::json_row(result, is_first) : line);
+    if (shows_progress) std::cerr << line;
+    is_first = false;
+  });
+  if (tail) tail->write();
 }
 
 }  // namespace holomorph

@@ -94,6 +94,8 @@ struct BenchCommand {
   std::string filter;
   Path against;  ///< earlier results; empty: none
   bool json = false;
+  bool with_long = false;
+  bool list = false;  ///< print the names and goals only
 };
 
 /// The bits per color of a picture. Throws Error if the format does not have what is wanted.

@@ -306,6 +306,9 @@ void CommandLine::add_bench(CLI::App& app) {
   auto* sub = add(app, "bench", "Run the benchmarks and print their results", bench);
   sub->add_option("--filter", bench.filter, "Run only benchmarks whose name contains this text");
   sub->add_flag("--json", bench.json, "Print JSON, with the machine, its load and the commit");
+  sub->add_flag("--long", bench.with_long,
+                "Also run the long benchmarks, which --filter runs as well");
+  sub->add_flag("--list", bench.list, "Print the names and goals of the benchmarks");
   sub->add_option("--against", bench.against,
                   "Compare with earlier results, a file that --json has written")
       ->excludes("--json");

@@ -7,22 +7,29 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 
 #include "core/clock.h"
+#include "system/new_file.h"
 
 namespace holomorph {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 std::atomic<int> deferred_stops = 0;  // lock-free, because the handler reads it
+std::atomic<const char*> last_output = nullptr;
+
+void write_in_handler(int descriptor, const char* text) {
+  const ssize_t ignored = ::write(descriptor, text, std::strlen(text));
+  static_cast<void>(ignored);
+}
 
 void stop(int) {
   interrupted = 1;
   if (deferred_stops > 0) return;
-  constexpr char kMessage[] = "\nholomorph: interrupted\n";
-  const ssize_t ignored = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
-  static_cast<void>(ignored);
+  if (const char* text = last_output.exchange(nullptr)) write_in_handler(STDOUT_FILENO, text);
+  write_in_handler(STDERR_FILENO, "\nholomorph: interrupted\n");
   ::_exit(130);
 }
 
@@ -39,6 +46,17 @@ DeferredStop::DeferredStop() {
 }
 DeferredStop::~DeferredStop() {
   --deferred_stops;
+}
+
+LastOutput::LastOutput(const char* text) {
+  last_output = text;
+}
+LastOutput::~LastOutput() {
+  last_output = nullptr;
+}
+
+void LastOutput::write() {
+  if (const char* text = last_output.exchange(nullptr)) write_standard_output(text);
 }
 
 bool is_interrupted() {

@@ -23,6 +23,20 @@ class DeferredStop {
   DeferredStop(const DeferredStop&) = delete;
   DeferredStop& operator=(const DeferredStop&) = delete;
 };
+
+/// While an object of this class exists, a signal that ends the program first writes `text` to
+/// standard output. Makes what a command has written until then complete. At most one such object
+/// exists, and its text outlives it.
+class LastOutput {
+ public:
+  explicit LastOutput(const char* text);
+  ~LastOutput();
+  LastOutput(const LastOutput&) = delete;
+  LastOutput& operator=(const LastOutput&) = delete;
+  /// Writes the text now. Throws Error if it cannot be written.
+  void write();
+};
+
 bool is_interrupted();
 /// Throws Interrupted if a signal has arrived.
 void stop_if_interrupted();

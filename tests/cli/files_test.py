@@ -147,6 +147,31 @@ class Files(Case):
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(reason, done.stderr)
 
+    def test_the_benchmarks_can_be_listed(self):
+        usual, every = (self.good("bench", "--list", *words).stdout.splitlines() for words in ([], ["--long"]))
+        self.assertEqual(len(set(every)), len(every))
+        self.assertLess(set(usual), set(every))
+        names = [line.split("  (goal ")[0] for line in every]
+        for line in every:
+            self.assertFalse("compar" in line and "(goal " in line, line)
+        for name in names:  # coordinates in double beside those in float
+            if name.startswith("coordinates: float, order"):
+                self.assertIn(name.replace("float", "double"), names)
+        self.assertEqual(self.good("bench", "--list", "--filter", "auto-cage").stdout, "auto-cage: 2000 x 2000 picture\n")
+
+    def test_an_interrupted_benchmark_keeps_its_rows(self):
+        process = subprocess.Popen([PROGRAM, "bench", "--filter", "prepare: ", "--json"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.DEVNULL, text=True)
+        lines = []
+        while not any("median" in line for line in lines):
+            lines.append(process.stdout.readline())
+            self.assertNotEqual(lines[-1], "", "a row must come before the end")
+        process.send_signal(signal.SIGINT)
+        results = json.loads("".join(lines) + process.stdout.read())
+        process.stdout.close()
+        self.assertEqual(process.wait(), 130)
+        self.assertIn("prepare: ", results["rows"][0]["name"])
+
     def test_scenes_and_points_come_from_pipes_and_standard_input(self):
         scene = self.keyed_scene()
         scene["image"]["file"] = self.path("red.png")
