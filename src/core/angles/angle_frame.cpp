@@ -1,5 +1,6 @@
 // The scale is a ratio of lengths, because lengths do not depend on how far the boundary turns. A
-// least-squares fit of the vertices would depend on it (DECISIONS).
+// least-squares fit of the vertices would depend on it: its scale becomes negative when corners
+// turn one end of a bar by half a turn.
 #include "core/angles/angle_frame.h"
 
 #include <algorithm>

@@ -16,10 +16,11 @@ struct BoundaryAngles {
 
 /// The boundary angles that take `rest` to `pose`. Both cages must be counter-clockwise and have
 /// the same segments; `corners` are vertices in increasing order. Each angle is the sum of an
-/// edge's rotation, the corner's own angle, and the relaxation by tension (WG10, sec. 4). The jumps
-/// at corners are limited as described for kLeastCornerAngle. If the turning number of the posed
-/// cage is not 1, an edge was probably dragged across a vertex. Whole turns are then added at the
-/// sharpest vertices, which keeps the angles continuous during the drag. Cost: linear.
+/// edge's rotation, the corner's own angle, and the relaxation by tension (WG10, sec. 4). Nothing
+/// depends on earlier poses, so a file needs no history. The jumps at corners are limited as
+/// described for kLeastCornerAngle. If the turning number of the posed cage is not 1, an edge was
+/// probably dragged across a vertex. Whole turns are then added at the sharpest vertices, which
+/// keeps the angles continuous during the drag. Cost: linear.
 BoundaryAngles boundary_angles(const Cage& rest, const Cage& pose,
                                const std::vector<Index>& corners,
                                const std::vector<PoseCorner>& own);

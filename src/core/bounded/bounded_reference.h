@@ -16,7 +16,8 @@ class ReferenceSampler {
  public:
   static constexpr int kSamplesPerVertex = 6;  ///< per vertex of the basis
   /// The distance from the boundary at which references are sampled, in sample spacings. References
-  /// are smooth there.
+  /// are smooth there. On the boundary itself, the derivative of a Cauchy map has a logarithmic
+  /// singularity at each vertex.
   static constexpr double kInset = 1;
 
   /// Prepares the method for the rest's cage and pins. All arguments except `rest` must outlive

@@ -29,7 +29,8 @@ struct ComparedMap {
 
 /// Compares maps for a rest and pose of method `bounded`. The rows are the reference itself, this
 /// program's map, and the results of plain implementations of Lipman 2012, Chen and Weber 2015,
-/// Aigerman and Lipman 2013, and Kovalsky et al. 2015. All use the rest's parameters. Piecewise
+/// Aigerman and Lipman 2013, and Kovalsky et al. 2015. These implementations follow the text of the
+/// papers, and the times are theirs, not the authors'. All use the rest's parameters. Piecewise
 /// linear maps are measured on the mesh's triangles; harmonic maps are measured at the mesh's
 /// vertices and densely along the boundary, including between the samples. `on_row` receives each
 /// row as soon as it is finished; `stop` ends the work early. Throws Error under the same

@@ -133,10 +133,11 @@ bool is_straight(const Cage& cage, Index segment);
 
 /// Throws Error unless the cage can be a rest cage. Each loop must have at least three segments,
 /// finite coordinates and a nonzero area. It must not have a segment of zero length, a cusp, a
-/// needle below 1e-7 radians or a self-intersection. Holes must lie inside the outer loop and
-/// outside each other, without touching anything. The message names the segments, and the error's
-/// `where` is the position. Needles, intersections and areas are tested on the `flattened` cage.
-/// Cost for ordinary loops: O(n log n) in the number of flattened points.
+/// needle below 1e-7 radians or a self-intersection. Needles are refused because the points that a
+/// mesher inserts on their sides are rounded, which makes the sides cross. Holes must lie inside
+/// the outer loop and outside each other, without touching anything. The message names the
+/// segments, and the error's `where` is the position. Needles, intersections and areas are tested
+/// on the `flattened` cage. Cost for ordinary loops: O(n log n) in the number of flattened points.
 void check_rest_cage(const Cage& cage);
 
 /// The error that check_rest_cage would throw, or none if the cage is valid.

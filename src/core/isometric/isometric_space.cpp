@@ -24,7 +24,8 @@ constexpr double kFarPin = 1e-3;    ///< relative to the size: a miss that needs
 constexpr int kSingleFrom =
     100;  ///< from this size on, drafts compute Hessians in single precision
 /// The weights of the barrier, relative to the value without it: at the start of a final answer, at
-/// the start with more samples, at the end, and in drafts.
+/// the start with more samples, at the end, and in drafts. A fixed weight would be too thin where
+/// pins are missed and the penalty is large.
 constexpr double kFirstBarrier = 1e-1, kNextBarrier = 1e-3, kLastBarrier = 1e-5,
                  kDraftBarrier = 1e-3;
 constexpr double kTightened = 0.002;  ///< so that the bounds themselves can be proved

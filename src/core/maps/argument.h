@@ -25,12 +25,12 @@ bool winds_around_zero(PolygonView samples, const VectorXc& values);
 
 /// The argument of the values along each loop of a boundary, summed from the increments between
 /// neighboring samples. For each zero, 2 pi is subtracted at the sample nearest to the zero, or at
-/// the nearest sample across the domain if that makes the argument vary clearly less. The sum of
-/// all increments along a loop is therefore 0, and the argument is single-valued. If a loop has too
-/// few or too many zeros, the jumps that correct the sum are placed where |value| is smallest. The
-/// argument of a hole is continued from the nearest sample of another loop. Throws Error
-/// when a value is 0 or not finite. Cost: samples times zeros, times up to 64 combinations of jump
-/// positions.
+/// the nearest sample across the domain if that makes the argument vary clearly less. Without the
+/// second choice, a sharply bent arm would turn the long way around. The sum of all increments
+/// along a loop is therefore 0, and the argument is single-valued. If a loop has too few or too
+/// many zeros, the jumps that correct the sum are placed where |value| is smallest. The argument of
+/// a hole is continued from the nearest sample of another loop. Throws Error when a value is 0 or
+/// not finite. Cost: samples times zeros, times up to 64 combinations of jump positions.
 VectorXd boundary_argument(PolygonView samples, const VectorXc& values,
                            const std::vector<Zero>& zeros);
 

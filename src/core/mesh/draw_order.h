@@ -5,7 +5,8 @@
 
 namespace holomorph {
 
-/// A point of the rest picture, and the height of the region around it.
+/// A point of the rest picture, and the height of the region around it. Heights only sort
+/// triangles, so no map depends on them.
 struct Depth {
   Complex at;
   int depth = 0;

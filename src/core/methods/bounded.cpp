@@ -45,7 +45,8 @@ class BoundedDeformer final : public Deformer {
   }
 
   static int final_basis(const Cage& cage) { return BoundaryBasis::usual_size(2 * cage.size()); }
-  /// Prepares a coarser basis, which keeps drags fast when the cage has many points or curves.
+  /// Prepares a coarser basis, which keeps drags fast when the cage has many points or curves. The
+  /// time grows with the cube of the number of unknowns. The bounds are proved in any case.
   void prepare_draft() {
     const int coarse = BoundaryBasis::usual_size(rest_.cage.size()), most = 25 + coarse / 2;
     if (coarse < final_basis(rest_.cage) || basis_->unknowns() > most)
@@ -219,8 +220,9 @@ class BoundedDeformer final : public Deformer {
   }
 
   /// Rotates, scales and moves the map to the pins' targets or, with fewer than two pins, to the
-  /// reference. A rotation preserves all bounds. A change of scale requires a new certificate. If
-  /// that fails, the scale is not changed.
+  /// reference. The space L_nu determines rotation and scale only up to noise. A rotation preserves
+  /// all bounds. A change of scale requires a new certificate. If that fails, the scale is not
+  /// changed.
   void align(const Pose& pose, Found& found) const {
     Points from, to;
     const std::span<const Complex> f = as_span(found.f);

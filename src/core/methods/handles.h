@@ -7,7 +7,8 @@
 namespace holomorph {
 
 /// The handle points of a rest are its pins, and the points of the disks of pins with a frame. If
-/// none of them lies in the mesh, the handle points are the vertices of the cage.
+/// none of them lies in the mesh, the handle points are the vertices of the cage. If cage vertices
+/// were always held, a cage around a picture with pins would fix the picture's outline in place.
 class HandlePoints {
  public:
   explicit HandlePoints(const Rest& rest);

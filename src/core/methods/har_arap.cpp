@@ -20,7 +20,7 @@ namespace holomorph {
 namespace {
 
 constexpr int kSamplesEach = 3;
-constexpr size_t kAreaSamples = 4000;
+constexpr size_t kAreaSamples = 4000;  ///< with 400, maps of tight cages went wild between samples
 constexpr int kMostSteps = 100, kFewSteps = 12;
 constexpr double kStill = 1e-6;
 constexpr double kHandlePull = 1e3;  ///< weight of a handle, relative to the mean energy

@@ -177,7 +177,9 @@ class OutlineDeformer final : public Deformer {
   Rest rest_;
   const Method& method_;
   UsablePins pins_;
-  std::unique_ptr<Deformer> fallback_;  ///< method `pins`, used while there is no outline
+  /// Method `pins`, used while there is no outline. Choosing this method therefore moves nothing
+  /// yet.
+  std::unique_ptr<Deformer> fallback_;
   std::unique_ptr<OutlineFit> fit_;
   int built_ = 0;
   PlanarMatrix<T> value_, slope_;  ///< C and C' of the fit's basis at the samples

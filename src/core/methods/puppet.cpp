@@ -115,7 +115,8 @@ class PuppetDeformer final : public Deformer {
   }
   double value(const char* key) const { return parameter(method_, rest_.parameters, key); }
 
-  /// The cage without vertices that the shape does not need.
+  /// The cage without vertices that the shape does not need. It contains the cage, so what is
+  /// proved for it holds in the cage. Points that were inserted into straight edges change nothing.
   static Cage thinned(const Cage& cage) {
     constexpr double kTolerance = 0.002;  // in units of the size
     return thinned_around(cage, kTolerance * box_of(vertices_of(cage)).diagonal());

@@ -164,7 +164,8 @@ void RigidEnergy::cycle(const Points& targets, VectorXc& f) const {
 
 /// Makes the energy for targets 0, minus twice the real part of the inner product of `load` and f,
 /// smaller. On the coarser mesh, the load is such that a map there in the same state has the
-/// gradient of the finer map.
+/// gradient of the finer map. A correction that raises the energy is kept, too: refusing it left
+/// large drags with more energy a few frames later.
 void RigidEnergy::improve(const VectorXc& load, VectorXc& f) const {
   const auto iterate = [&] { f = factor_.solve(turned_by(rotations_of(f)) + load); };
   if (!coarser_) {

@@ -209,7 +209,8 @@ OutlineMatch OutlineFit::after(int iteration) const {
 // Vertices are spaced uniformly in a weighted sum of relative arc lengths: 0.3 times the source's
 // plus 0.7 times the target's. The cage's own vertices are kept, and each of its segments is cut
 // separately. For each corner of the target, the nearest vertex is moved to the corner's preimage,
-// because f' behaves like a power there.
+// because f' behaves like a power there. If cuts ignored the cage's vertices, they would leave
+// slivers next to them, and f' would have zeros for most pairs of outlines.
 void OutlineFit::set_up_basis(const Correspondence& start) {
   const double own = settings_.published ? 1 : 0.3;
   const auto vertex_parameter = [&](double s) {

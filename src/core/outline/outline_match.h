@@ -28,7 +28,8 @@ struct OutlineSettings {
   double stiffness = 0;      ///< delta: weight of L^2 mean |f_zbar|^2; if 0, f_zbar = 0
   double pin_weight = 0.1;   ///< beta
   /// The weight of the picture's squared rotation in the choice of the start, relative to the mean
-  /// square of the logarithmic stretch.
+  /// square of the logarithmic stretch. People draw an outline where the picture is, but the
+  /// stretch alone would map a square onto an ellipse corner first.
   double upright = 1;
   int most_iterations = 30;
 };

@@ -29,7 +29,9 @@ constexpr Sampling kUsual{600, 1e-5}, kSharp{1000, 1e-9};
 /// The largest number of points on an outline. The cost of a Riemann map grows with its square, and
 /// an outline that needs more points is crowded in most cases.
 constexpr size_t kMostPoints = 20'000;
-constexpr Index kSearched = 120;  ///< equally spaced points of each outline used by the search
+/// Equally spaced points of each outline used by the search. More of them would move the minimum by
+/// less than the iteration does.
+constexpr Index kSearched = 120;
 constexpr double kPinWeight = 1000;
 constexpr size_t kPinsTried = 3;
 constexpr int kShifts = 16, kOffsets = 2, kRefined = 6, kSimplexSteps = 60;

@@ -35,8 +35,11 @@ class ConformalStart {
   /// pins are inside the source. The cost to be minimized has three terms: the mean square of ln of
   /// the relative stretch along both outlines, `upright` times the squared angle by which the
   /// picture is rotated, and 1000 times the squared hyperbolic distances of the pins' images from
-  /// their targets. If `upright` is 0, the orientation of the drawings does not matter. Throws
-  /// Error when an outline touches itself. Cost: about 20 ms, and up to 2 s for thin outlines.
+  /// their targets. With the stretch along the source alone, a disk would be mapped onto a bar with
+  /// its center at one end. If the pins were not part of the cost, they would pull on a map that
+  /// does not suit them and fold it. If `upright` is 0, the orientation of the drawings does not
+  /// matter. Throws Error when an outline touches itself. Cost: about 20 ms, and up to 2 s for thin
+  /// outlines.
   ConformalStart(const Polyline& source, const Polyline& target, double upright,
                  const Points& pins = {});
   ~ConformalStart();

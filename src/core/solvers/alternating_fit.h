@@ -5,7 +5,7 @@
 // current values of the map (moving targets). The other terms have given targets. The rows are
 // factored once. Householder QR is used because the condition number of the rows grows with the
 // square of the number of unknowns. Each iteration then takes only two products with the rows that
-// have moving targets.
+// have moving targets. The energy of the other rows follows, because |Q g| = |g| for orthonormal Q.
 #pragma once
 
 #include <functional>

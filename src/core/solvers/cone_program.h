@@ -80,8 +80,10 @@ double energy_of(const ConeSystem& system, const ConeTarget& target, const Vecto
 /// missing, for example for appended samples, they are filled in. Every iterate is strictly
 /// feasible. The result is therefore inside all cones even if the solver stops after
 /// settings.iterations. Method: primal-dual interior points with Nesterov-Todd scaling and
-/// Mehrotra's corrector. The duals of Chan, Golub, Mulet 1999 handle the L1 norm. Cost per
-/// iteration: one Cholesky factorization and one symmetric product of (p + q)^2 (m + k) / 2.
+/// Mehrotra's corrector. The duals of Chan, Golub, Mulet 1999 handle the L1 norm. The absolute
+/// values are bounded by additional unknowns, which are eliminated. With a smoothed norm, the
+/// smoothing decreased faster than the steps could follow, and some poses did not converge. Cost
+/// per iteration: one Cholesky factorization and one symmetric product of (p + q)^2 (m + k) / 2.
 ConeSolution solved(const ConeSystem& system, const ConeTarget& target,
                     const ConeSettings& settings, const ConeSolution& start);
 
