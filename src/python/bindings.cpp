@@ -36,7 +36,8 @@ namespace py = pybind11;
 namespace holomorph {
 namespace {
 
-/// Points from an array of any shape.
+/// Points from an array of any shape. Real arrays without x and y are refused: [1, 2, 3] would
+/// silently be points on the real axis.
 struct PointArray {
   Points points;
   std::vector<py::ssize_t> shape;

@@ -39,7 +39,8 @@ using RowProgress = std::function<void(int done, int all)>;
 
 /// An ST-map of a scene's edited layer and its picture. Where the posed picture overlaps itself,
 /// the part that is drawn on top counts, unless it is less than half opaque and the part beneath is
-/// more opaque. Outside the cage nothing moves. `coverage` is the share of each pixel that shows
+/// more opaque. Otherwise, the transparent margin of a raised arm would cut a hole in the head
+/// behind it. Outside the cage nothing moves. `coverage` is the share of each pixel that shows
 /// points of the picture's rectangle, in 16ths. Calls `progress` on the calling thread with the
 /// number of rows that have been started and the number of all rows. An exception from `progress`
 /// ends the computation and is rethrown. Throws the errors of check_map_size. Cost: the linear

@@ -75,7 +75,8 @@ void finish(const RenderFrame& frame) {
 }  // namespace
 
 struct Renderer::Objects {
-  /// A program for each coloring, compiled at its first use.
+  /// A program for each coloring, compiled at its first use. Software drivers compute all branches
+  /// of a condition at each pixel, even if it depends only on a uniform.
   std::array<std::unique_ptr<const Program>, kColorings> programs;
   const Program* program = nullptr;  ///< in use
   std::array<float, 9> to_clip{};    ///< from the plane, by columns

@@ -26,9 +26,11 @@ struct AutoCageOptions {
 ///
 /// Empty regions inside the content become holes if a circle with a diameter of `hole_width`
 /// percent of the content's size fits into them and no other content lies in them; up to 100 holes,
-/// the widest first. The vertices of holes are not counted in `vertices`. If the picture has no
-/// transparency or no content, the cage is the picture's rectangle. Throws Error for options out of
-/// range. Cost: about 100 ns per pixel; pictures with sides above 4096 px are reduced.
+/// the widest first. Content in a hole, such as the pupil of an eye, would be left behind. Smaller
+/// regions are usually gaps between strokes, and each hole costs unknowns. The vertices of holes
+/// are not counted in `vertices`. If the picture has no transparency or no content, the cage is the
+/// picture's rectangle. Throws Error for options out of range. Cost: about 100 ns per pixel;
+/// pictures with sides above 4096 px are reduced.
 Cage auto_cage(const Image& image, const AutoCageOptions& options = {});
 
 }  // namespace holomorph

@@ -16,8 +16,9 @@ namespace holomorph {
 /// back.
 using Extra = std::string;
 
-/// A surface in space. Its flattened boundary is the outline. The path is relative to the scene's
-/// folder in a scene file, and absolute in a loaded scene.
+/// A surface in space. Its flattened boundary is the outline. The outline alone says where the
+/// surface lies, so moving and rotating it need no rules of their own. The path is relative to the
+/// scene's folder in a scene file, and absolute in a loaded scene.
 struct SurfaceReference {
   std::string file;
   Flattening flattening = Flattening::lscm;
@@ -71,7 +72,8 @@ struct Keyframe {
 };
 
 /// How a picture is deformed. The rest and posed cages have the same loops with the same numbers of
-/// segments; both are empty until a cage is drawn. Value type.
+/// segments; both are empty until a cage is drawn. Scenes without a cage can be saved, too. Value
+/// type.
 struct Deformation {
   Cage rest, pose;
   std::vector<Pin> pins = {};

@@ -17,8 +17,8 @@ class Document {
   /// Opens a scene (recognized by its name), a textured surface (.obj) or a picture (anything
   /// else). If this fails, throws Error and changes nothing.
   static Document open(const Path& path, const Reach& reach = {});
-  /// A new document that starts as a copy of a scene. It has no file and no unsaved changes. Throws
-  /// Error.
+  /// A new document that starts as a copy of a scene. It has no file and no unsaved changes.
+  /// Samples are opened this way, so that nobody overwrites them out of habit. Throws Error.
   static Document copy_of(const Path& scene);
   /// The scene from an autosave file that an interrupted session left behind. Throws Error.
   static Document recover(const Path& autosave);

@@ -21,7 +21,8 @@ struct LoadedScene {
 /// Options for reading a scene.
 struct LoadOptions {
   /// If true, a picture that cannot be read causes a warning, and files out of reach are withheld.
-  /// If false, both are errors.
+  /// If false, both are errors. The window can ask the user for the picture; the command line
+  /// cannot.
   bool pictures_may_be_missing = false;
   Reach reach = {};
   double open_pixels = 0;     ///< number of pixels in pictures that are already open

@@ -67,7 +67,8 @@ class Pictures {
   std::shared_ptr<Footage> footage(const Layer& layer) const;
   /// The text of a layer's SVG file; null if its picture is not a drawing.
   std::shared_ptr<const std::string> drawing(const Layer& layer) const;
-  /// Makes the frame with this number of a layer's film the picture of this layer.
+  /// Makes the frame with this number of a layer's film the picture of this layer. Cages, pins and
+  /// the canvas therefore need not know about films.
   void show_frame(const Layer& layer, int number, std::shared_ptr<const Image> frame);
   /// Does so for all films of a scene, with their frames at a time. Throws Error.
   void show_time(const Scene& scene, double time);

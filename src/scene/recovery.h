@@ -9,7 +9,8 @@
 namespace holomorph {
 
 /// The path of a document's autosave in a folder, and the path of its lock file. The program holds
-/// the lock while it uses the autosave.
+/// the lock while it uses the autosave. A second window therefore does not offer to recover work
+/// that is still open in the first.
 Path autosave_path(const Path& folder, const std::string& id);
 Path lock_path(const Path& autosave);
 

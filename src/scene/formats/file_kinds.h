@@ -1,4 +1,5 @@
-// The kinds of files that the program reads, and as what.
+// The kinds of files that the program reads, and as what. This is the only such list: dialogs,
+// dropped files, thumbnails, commands and `holomorph formats` use it.
 #pragma once
 
 #include <initializer_list>

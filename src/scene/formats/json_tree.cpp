@@ -1,5 +1,6 @@
 // nlohmann-json parses the text twice. The first pass counts the values. The second pass fills
-// arrays that have exactly the right size.
+// arrays that have exactly the right size. The library's own tree would take about 40 times the
+// memory of the text.
 #include "scene/formats/json_tree.h"
 
 #include <bit>

@@ -1,4 +1,6 @@
-// Meshes that move with a scene's layers, and the files in which other programs read them.
+// Meshes that move with a scene's layers, and the files in which other programs read them. The
+// formats interpolate vertices linearly, which shrinks what rotates. Meshes are therefore stored
+// for each frame, and their error is measured.
 #pragma once
 
 #include "core/mesh/mesh.h"

@@ -1,4 +1,5 @@
-// Photoshop files with layers.
+// Photoshop files with layers. No library of the distribution reads and writes layers with groups,
+// masks and clipping.
 #pragma once
 
 #include "scene/formats/layered.h"
