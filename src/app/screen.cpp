@@ -158,7 +158,8 @@ void Screen::moved_to_display() {
 
 /// Passes events to ImGui until a button changes, which may open or close what later events are
 /// for, or until a key is released that was pressed in this frame, because ImGui must see it
-/// pressed.
+/// pressed. ImGui 1.86 sees only the state at the start of a frame; on slow displays, a click
+/// followed by a move would land at the later position.
 void Screen::pump_events() {
   ImGuiIO& io = ImGui::GetIO();
   bool button_changed = false;

@@ -22,8 +22,9 @@ enum class KeyFocus { assignment, field, palette, dialog, menu, panel, canvas };
 /// canvas. Fields, the palette, dialogs and menus handle their keys themselves.
 KeyFocus key_focus(const WindowFocus& window);
 
-/// Whether arrow keys, Tab and Enter move through the items of a dialog, a menu or a panel. The
-/// palette handles these keys itself.
+/// Whether arrow keys, Tab and Enter move through the items of a dialog, a menu or a panel. Only
+/// then is ImGui's own navigation on, because the canvas uses the same keys. The palette handles
+/// these keys itself.
 bool navigates_items(const WindowFocus& window);
 
 /// Whether a key runs its action while a panel has the keyboard focus. Keys that move through the

@@ -6,7 +6,8 @@
 
 namespace holomorph {
 
-/// The part of the plane that the canvas shows. In window px, x points right and y points down.
+/// The part of the plane that the canvas shows. In window px, x points right and y points down. It
+/// is not called View, which is the heat map or pattern that is displayed.
 struct Viewport {
   Complex center;                                   ///< plane point at the center of the canvas
   double zoom = 1;                                  ///< window px per plane unit

@@ -48,7 +48,8 @@ enum class Request {
   compare
 };
 
-/// Playback of the iterations of a method that reports an energy for each.
+/// Playback of the iterations of a method that reports an energy for each. It is not part of the
+/// scene.
 struct Playback {
   std::optional<int> iteration = {};  ///< the displayed iteration; none means the last one
   bool playing = false;

@@ -40,9 +40,9 @@ class Canvas {
 
   /// Enlarges a box of the plane to a whole number of pixels at the scale that draw_map uses.
   static Box whole_pixels(const Box& box);
-  /// Draws only the edited layer's posed map. The box fills the framebuffer and must come from
-  /// whole_pixels. Transparent parts of the picture show `clay`. Call draw first, because it
-  /// uploads changes.
+  /// Draws only the edited layer's posed map. A surface can therefore show whatever the canvas can.
+  /// The box fills the framebuffer and must come from whole_pixels. Transparent parts of the
+  /// picture show `clay`. Call draw first, because it uploads changes.
   void draw_map(const Workspace& workspace, const Box& box, Framebuffer& into, Color clay);
 
   /// The edited layer's painter, for its heat map and the way in which it is drawn. Valid after the

@@ -14,8 +14,9 @@ class Jobs {
       : workspace_(workspace), wake_(std::move(wake)) {}
 
   /// Runs `work` on another thread. If the work succeeds and is not canceled, calls `then` on this
-  /// thread. If the work is short, waits for it and returns its error message, or "". Errors of
-  /// longer work are shown as toasts. Cancels a job that is already running.
+  /// thread. If the work is short, waits for it and returns its error message, or "". Waiting
+  /// avoids flicker. Errors of longer work are shown as toasts. Cancels a job that is already
+  /// running.
   std::string run(const std::string& title, Job::Work work, std::function<void()> then);
   bool running() const { return job_ != nullptr; }
   /// Draws the running job's dialog, and calls `then` once the work has ended. `then` may start

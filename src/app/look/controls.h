@@ -1,5 +1,6 @@
 // Labels, buttons, switches, lists and fields, drawn over ImGui's behavior. In a panel, labels form
-// a column at the left.
+// a column at the left. Controls are ImGui items, so they keep its keyboard focus and disabled
+// states. They are drawn over in the colors of the theme.
 #pragma once
 
 #include <imgui.h>

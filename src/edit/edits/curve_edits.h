@@ -12,7 +12,8 @@ struct Tangents {
 };
 Tangents tangents_of(const Deformation& deformation, Index vertex, EditMode mode);
 
-/// Whether the two tangents of a vertex point in opposite directions, up to a small angle.
+/// Whether the two tangents of a vertex point in opposite directions, up to a small angle. This is
+/// not stored, so nothing can contradict the tangents.
 bool is_smooth(const Deformation& deformation, Index vertex, EditMode mode);
 
 /// Moves a control point to a position. At a smooth vertex the opposite tangent rotates with it and

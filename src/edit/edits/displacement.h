@@ -28,8 +28,8 @@ Displacements displacements(const Deformation& deformation, const Selection& dra
 Deformation displaced(Deformation deformation, const Displacements& by, EditMode mode);
 
 /// Maps each vertex, pin and stroke to its counterpart: the handle of the same kind that lies at
-/// its mirror image at rest. Handles without a counterpart are left out. Cost: quadratic in the
-/// number of handles.
+/// its mirror image at rest. Symmetry therefore works in any pose. Handles without a counterpart
+/// are left out. Cost: quadratic in the number of handles.
 std::map<Handle, Handle> counterparts_of(const Deformation& deformation);
 
 }  // namespace holomorph

@@ -36,9 +36,10 @@ class Recording {
   /// displaced by `by` from their positions at the start, or edited by this amount. Sets the
   /// workspace's time to that time.
   Deformation follow(Workspace& workspace, Complex by, double now_ms);
-  /// Sets keyframes with linear easing at whole frames, in one step. It sets only the keyframes
-  /// needed to keep all handles within about three window px of their paths. In existing keyframes,
-  /// only the dragged handles move. Keyframes that do not play are not changed.
+  /// Sets keyframes with linear easing at whole frames, in one step. Smooth easing would come to
+  /// rest at both ends of each interval. It sets only the keyframes needed to keep all handles
+  /// within about three window px of their paths. In existing keyframes, only the dragged handles
+  /// move. Keyframes that do not play are not changed.
   void finish(Workspace& workspace);
   void cancel(Workspace& workspace);
 
