@@ -9,6 +9,7 @@
 #include "bench/wavy.h"
 #include "core/clock.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "scene/formats/layered.h"
 #include "scene/keyframes.h"
 #include "scene/layer_maps.h"

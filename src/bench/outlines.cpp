@@ -6,6 +6,7 @@
 #include "bench/outlines.h"
 #include "core/clock.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "core/outline/outline_match.h"
 

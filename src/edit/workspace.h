@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "core/maps/deformer.h"
 #include "core/maps/heat.h"
 #include "edit/actions/actions.h"
 #include "edit/edits/displacement.h"

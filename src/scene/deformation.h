@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/flatten.h"
 #include "core/mesh/surface.h"
 #include "scene/limits.h"

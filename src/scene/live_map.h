@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "core/maps/deformer.h"
 #include "scene/map_worker.h"
 
 namespace holomorph {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/maps/deformer.h"
 #include "scene/motion.h"
 #include "scene/posed_map.h"
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/maps/deformer.h"
 #include "core/mesh/inbetween.h"
 #include "scene/prepared_map.h"
 

@@ -1,6 +1,7 @@
 // A map of a deformation, with all that its display needs.
 #pragma once
 
+#include "core/maps/deformer.h"
 #include "core/maps/injectivity.h"
 #include "scene/prepared_map.h"
 

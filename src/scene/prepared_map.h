@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "core/maps/deformer.h"
 #include "core/mesh/draw_order.h"
 #include "core/mesh/inbetween.h"
 #include "core/mesh/mesher.h"

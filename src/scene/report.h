@@ -1,6 +1,7 @@
 // A numerical report on a scene's map.
 #pragma once
 
+#include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
 #include "scene/timed_map.h"
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "core/maps/deformer.h"
 #include "core/maps/fine_map.h"
 #include "core/maps/inverse.h"
 #include "scene/motion.h"

@@ -4,6 +4,7 @@
 #include <holomorph/deformer.h>
 #include <holomorph/flatten.h>
 #include <holomorph/mesher.h>
+#include <holomorph/method.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // The rest and pose that the contract tests use for every method.
 #pragma once
 
-#include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/shapes.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 #include "core/mesh/mesher.h"
 #include "support/shapes.h"
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/look/imgui_versions.h"
 #include "edit/actions/icons.h"
 #include "edit/workspace.h"
 
@@ -293,8 +294,9 @@ bool begin_section(const std::string& title, const std::string& state, ImU32 sta
   const float pad = ImGui::GetStyle().WindowPadding.x, height = px(36);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
+  allow_overlap_of_next_item();  // sections may put a button into the title
   const Pressed item = press(title + "##section", {width, height});
-  ImGui::SetItemAllowOverlap();  // sections may put a button into the title
+  allow_overlap_of_last_item();
   const std::string shown = plain_name(title);
   if (item.pressed) open = !open;
   ImDrawList& list = *ImGui::GetWindowDrawList();

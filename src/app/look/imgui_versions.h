@@ -81,6 +81,12 @@ inline void activate_item(ImGuiIO& io) {
   io.NavInputs[ImGuiNavInput_Activate] = 1;
 }
 
+/// Items on top of the next item get the pointer. Also call the other function after that item.
+inline void allow_overlap_of_next_item() {}
+inline void allow_overlap_of_last_item() {
+  ImGui::SetItemAllowOverlap();
+}
+
 inline bool is_hoverable(const ImRect& box, ImGuiID id) {
   return ImGui::ItemHoverable(box, id);
 }
@@ -162,6 +168,11 @@ inline void send_wheel(ImGuiIO& io, double x, double y) {
 }
 
 inline void activate_item(ImGuiIO&) {}
+
+inline void allow_overlap_of_next_item() {
+  ImGui::SetNextItemAllowOverlap();
+}
+inline void allow_overlap_of_last_item() {}
 
 inline bool is_hoverable(const ImRect& box, ImGuiID id) {
 #if IMGUI_VERSION_NUM < 19200

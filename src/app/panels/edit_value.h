@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/look/numbers.h"
+#include "core/maps/method.h"
 #include "edit/workspace.h"
 
 namespace holomorph {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/look/controls.h"
+#include "app/look/imgui_versions.h"
 #include "app/look/numbers.h"
 #include "app/panels/panels.h"
 #include "edit/actions/icons.h"
@@ -84,13 +85,13 @@ void LayerPanel::draw_row(Workspace& workspace, size_t layer, Thumbnails& thumbn
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = px(48), side = px(36),
               small = px(24), indent = clip_base(scene, layer) ? px(16) : 0;
-  ImGui::SetItemAllowOverlap();
+  allow_overlap_of_next_item();
   const bool clicked = ImGui::InvisibleButton("row", {width, height});
   const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem |
                                             ImGuiHoveredFlags_RectOnly) &&
                        ImGui::IsWindowHovered();
   const bool double_clicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
-  ImGui::SetItemAllowOverlap();
+  allow_overlap_of_last_item();
   name_item("Layer: " + title_of_layer(scene, layer));
   if (ImGui::GetMousePos().x < at.x + width - 3 * small - px(8))
     tooltip(edited ? "Double-click to rename." : "Click to edit this layer.");

@@ -6,7 +6,7 @@
 
 #include "core/angles/hilbert.h"
 #include "core/angles/integration_paths.h"
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 
 namespace holomorph {
 

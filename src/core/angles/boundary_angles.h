@@ -1,7 +1,7 @@
 // How far a pose rotates the boundary of a cage: the angles theta of Weber, Gotsman 2010.
 #pragma once
 
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 
 namespace holomorph {
 

@@ -5,7 +5,7 @@
 #include <initializer_list>
 
 #include "core/cauchy/inside.h"
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 #include "core/mesh/locator.h"
 
 namespace holomorph {

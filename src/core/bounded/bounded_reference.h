@@ -5,6 +5,7 @@
 #include "core/bounded/bounded_space.h"
 #include "core/bounded/map_on_mesh.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 
 namespace holomorph {
 

@@ -9,6 +9,7 @@
 
 #include "core/bounded/certified_program.h"
 #include "core/bounded/holomorphic_distance.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

@@ -13,6 +13,7 @@
 #include "core/bounded/certificate.h"
 #include "core/bounded/map_on_mesh.h"
 #include "core/bounded/tree_integrals.h"
+#include "core/maps/deformer.h"
 #include "core/mesh/hole_loops.h"
 
 namespace holomorph {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/bounded/bounded_space.h"
+#include "core/maps/deformer.h"
 #include "core/solvers/factors.h"
 
 namespace holomorph {

@@ -6,7 +6,7 @@
 #include <stop_token>
 
 #include "core/bounded/certificate.h"
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 
 namespace holomorph {
 

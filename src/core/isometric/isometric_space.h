@@ -10,6 +10,7 @@
 
 #include "core/bounded/certificate.h"
 #include "core/isometric/isometric_program.h"
+#include "core/maps/deformer.h"
 #include "core/mesh/area_samples.h"
 #include "core/mesh/hole_loops.h"
 

@@ -1,7 +1,7 @@
 // Selects the pins that a method can use if its maps are defined only inside the cage.
 #pragma once
 
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 
 namespace holomorph {
 

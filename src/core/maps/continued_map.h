@@ -1,6 +1,7 @@
 // A map of a mesh, continued to the whole plane.
 #pragma once
 
+#include "core/maps/deformer.h"
 #include "core/maps/mesh_point_map.h"
 
 namespace holomorph {

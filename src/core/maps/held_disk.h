@@ -1,7 +1,7 @@
 // The disk that a pin with a frame acts on, in methods that prescribe points.
 #pragma once
 
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 
 namespace holomorph {
 

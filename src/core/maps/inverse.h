@@ -9,6 +9,7 @@
 
 #include "core/cauchy/inside.h"
 #include "core/geometry/box_grid.h"
+#include "core/maps/deformer.h"
 #include "core/maps/image_winding.h"
 #include "core/mesh/mesh.h"
 

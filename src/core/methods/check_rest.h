@@ -1,7 +1,7 @@
 // Checks that a method can prepare a Rest.
 #pragma once
 
-#include "core/maps/deformer.h"
+#include "core/maps/method.h"
 
 namespace holomorph {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geometry/similarity.h"
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 
 namespace holomorph {
 

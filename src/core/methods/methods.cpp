@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/methods/check_rest.h"
 #include "core/methods/rows.h"
 #include "core/parallel.h"

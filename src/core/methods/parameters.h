@@ -1,7 +1,7 @@
 // Functions that create the parameters in a method's table row.
 #pragma once
 
-#include "core/maps/deformer.h"
+#include "core/maps/method.h"
 
 namespace holomorph {
 

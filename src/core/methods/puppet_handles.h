@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/isometric/isometric_space.h"
-#include "core/maps/deformer.h"
+#include "core/maps/rest.h"
 
 namespace holomorph {
 

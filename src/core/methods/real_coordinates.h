@@ -1,6 +1,7 @@
 // Maps f = sum h_c b_c with one real function h_c for each control point b_c of a cage.
 #pragma once
 
+#include "core/maps/deformer.h"
 #include "core/methods/linear.h"
 
 namespace holomorph {

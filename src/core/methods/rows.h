@@ -1,7 +1,7 @@
 // The rows of the table of methods. Each method has one function and one file in this folder.
 #pragma once
 
-#include "core/maps/deformer.h"
+#include "core/maps/method.h"
 
 namespace holomorph {
 

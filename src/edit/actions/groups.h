@@ -1,6 +1,7 @@
 // Declarations that the files of the action table share.
 #pragma once
 
+#include "core/maps/method.h"
 #include "edit/actions/actions.h"
 #include "edit/workspace.h"
 

@@ -3,6 +3,7 @@
 // switch "Prevent folds".
 #pragma once
 
+#include "core/maps/method.h"
 #include "scene/deformation.h"
 
 namespace holomorph {

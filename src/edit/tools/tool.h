@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/maps/method.h"
 #include "edit/input.h"
 #include "edit/picking.h"
 #include "edit/tools/posed_corners.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/maps/curve_images.h"
+#include "core/maps/deformer.h"
 
 namespace holomorph {
 

@@ -8,6 +8,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "core/methods/real_coordinates.h"
 #include "support/catch.h"

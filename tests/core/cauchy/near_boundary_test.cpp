@@ -7,6 +7,7 @@
 #include "core/cauchy/cauchy_array.h"
 #include "core/cauchy/cauchy_map.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/exact_cauchy.h"

@@ -5,6 +5,7 @@
 
 #include "core/angles/angle_map.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/shapes.h"

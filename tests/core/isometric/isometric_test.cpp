@@ -8,6 +8,7 @@
 #include "core/isometric/barrier.h"
 #include "core/isometric/isometric_space.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "core/solvers/real_form.h"
 #include "support/catch.h"

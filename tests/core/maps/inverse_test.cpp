@@ -2,6 +2,7 @@
 #include "core/maps/inverse.h"
 
 #include "core/cauchy/cauchy.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/seeds.h"

@@ -1,7 +1,5 @@
 // In-between maps: shapes are kept, bounds hold, and rotations go in the expected direction.
 #include "core/mesh/inbetween.h"
-
-#include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"

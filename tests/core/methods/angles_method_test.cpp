@@ -5,6 +5,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/seeds.h"

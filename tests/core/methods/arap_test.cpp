@@ -1,6 +1,7 @@
 // Methods `arap` and `har_arap`: as-rigid-as-possible maps, on triangles and among smooth maps.
 
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/seeds.h"

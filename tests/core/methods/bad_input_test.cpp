@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "support/catch.h"
 #include "support/contract_setup.h"
 

@@ -4,6 +4,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/cauchy/quadrature.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/shapes.h"

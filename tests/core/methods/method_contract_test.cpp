@@ -8,6 +8,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "support/catch.h"
 #include "support/contract_setup.h"
 #include "support/seeds.h"

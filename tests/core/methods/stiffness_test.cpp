@@ -3,6 +3,7 @@
 
 #include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/shapes.h"

@@ -5,6 +5,7 @@
 #include "core/geometry/polyline.h"
 #include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"

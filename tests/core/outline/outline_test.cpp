@@ -6,6 +6,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "core/methods/parameters.h"
 #include "core/outline/outline_match.h"
