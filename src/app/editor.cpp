@@ -99,7 +99,6 @@ void Editor::frame() {
   draw_canvas();
   draw_panels(input, sizes);
   menu_was_open_ = has_popup();
-  ImGui::Render();
   screen_.end_frame();
   moving_ = take_motion();
   if (moving_ || timeline_.take_growth()) screen_.wake();

@@ -130,11 +130,14 @@ void Screen::begin_frame(bool navigates) {
   io.MouseDoubleClickTime = static_cast<float>(kDoubleClickSeconds + 2 * frame_seconds_);
   frame_start_ = now_ms();
   ImGui::NewFrame();
+  ImGui::PushItemFlag(ImGuiItemFlags_NoTabStop, true);  // see TabStop
   advance_theme();
   forget_item_boxes();
 }
 
 void Screen::end_frame() {
+  ImGui::PopItemFlag();
+  ImGui::Render();
   present();
   frame_seconds_ = (now_ms() - frame_start_) / 1000;
 }

@@ -326,6 +326,7 @@ bool begin_section(const std::string& title, const std::string& state, ImU32 sta
 
 bool text_field(const std::string& name, std::string& text, const char* hint, float width,
                 ImGuiInputTextFlags flags) {
+  const TabStop stop;
   ImGui::SetNextItemWidth(width);
   const bool entered = ImGui::InputTextWithHint(name.c_str(), hint, &text,
                                                 flags | ImGuiInputTextFlags_EnterReturnsTrue);
@@ -338,6 +339,7 @@ bool text_field(const std::string& name, std::string& text, const char* hint, fl
 }
 
 bool color_field(const std::string& name, std::array<std::uint8_t, 3>& color, float width) {
+  const TabStop stop;
   float values[3];
   for (size_t k = 0; k < 3; ++k) values[k] = static_cast<float>(color[k]) / 255;
   ImGui::SetNextItemWidth(width);

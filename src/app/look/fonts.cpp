@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "edit/actions/icons.h"
 #include "icon_sheets.h"
 #include "scene/formats/image.h"
+#include "system/program.h"
 
 namespace holomorph {
 namespace {
@@ -44,8 +44,8 @@ ImFont* add_face(const Face& face, float height) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   ImFontConfig config;
   config.OversampleH = face.height > 16 ? 1 : 2;  // more makes the atlas large and hardly sharper
-  if (std::filesystem::exists(face.file))
-    return fonts.AddFontFromFileTTF(face.file, height, &config, kRanges);
+  const Path built = face.file, file = data_file("fonts/" + built.filename().string(), built);
+  if (is_file(file)) return fonts.AddFontFromFileTTF(file.c_str(), height, &config, kRanges);
   config.SizePixels = height;
   return fonts.AddFontDefault(&config);
 }

@@ -43,6 +43,13 @@ std::map<std::string, ImVec4>& boxes() {
 
 }  // namespace
 
+TabStop::TabStop() {
+  ImGui::PushItemFlag(ImGuiItemFlags_NoTabStop, false);
+}
+TabStop::~TabStop() {
+  ImGui::PopItemFlag();
+}
+
 void draw_focus_ring(float rounding) {
   const ImGuiContext& imgui = *ImGui::GetCurrentContext();
   if (imgui.NavDisableHighlight || imgui.NavId == 0 || imgui.NavId != ImGui::GetItemID()) return;

@@ -11,6 +11,16 @@
 
 namespace holomorph {
 
+/// While an object of this class exists, Tab stops at the items that are added. It goes from field
+/// to field, and arrow keys reach all other items.
+class TabStop {
+ public:
+  TabStop();
+  ~TabStop();
+  TabStop(const TabStop&) = delete;
+  TabStop& operator=(const TabStop&) = delete;
+};
+
 /// Draws the ring of the keyboard focus around the last item, if it has the focus.
 void draw_focus_ring(float rounding);
 

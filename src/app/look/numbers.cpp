@@ -120,6 +120,7 @@ Change dragged_label(const std::string& label, double& value, const Number& numb
 
 Change number_field(const std::string& name, double& value, const Number& number, float width,
                     const std::string& prefix) {
+  const TabStop stop;
   ImGui::SetNextItemWidth(width);
   const ImGuiID id = ImGui::GetID(name.c_str());
   const bool types = ImGui::TempInputIsActive(id);
