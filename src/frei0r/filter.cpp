@@ -36,12 +36,14 @@ bool passes_seconds() {
   return dlsym(RTLD_DEFAULT, "mlt_factory_init") || dlsym(RTLD_DEFAULT, "gst_init");
 }
 
-/// The number of pixels from one row of a frame to the next. ffmpeg 5 pads rows but tells filters
-/// only the width.
+/// The number of pixels from one row of a frame to the next. ffmpeg before 6.1 pads rows but tells
+/// filters only the width.
 int row_pixels(int width) {
   constexpr int kPadded = 16;
-  const bool is_ffmpeg = dlsym(RTLD_DEFAULT, "avfilter_graph_alloc") && !passes_seconds();
-  return is_ffmpeg ? (width + kPadded - 1) / kPadded * kPadded : width;
+  constexpr unsigned kLibavfilterOf61 = 9 << 16 | 12 << 8;
+  const auto version = reinterpret_cast<unsigned (*)()>(dlsym(RTLD_DEFAULT, "avfilter_version"));
+  const bool pads = version && version() < kLibavfilterOf61 && !passes_seconds();
+  return pads ? (width + kPadded - 1) / kPadded * kPadded : width;
 }
 
 /// The picture in another size. Pixels at its edges are repeated outside, so that edges stay

@@ -801,9 +801,11 @@ class WindowTest(WindowCase):
             editor.drag((1780, 1000), (1900, 1100))
             editor.wait(lambda s: s["modified"], "a drag")
             with open(f"/proc/{editor.process.pid}/status") as file:
-                most = [int(line.split()[1]) for line in file if line.startswith("VmHWM")][0]
+                memory = {line.split()[0]: int(line.split()[1]) for line in file if line.split()[-1] == "kB"}
+            # Without the code of libraries: a third of it is the software driver, which grows with each version of Mesa.
+            most = memory["VmHWM:"] - memory["RssFile:"]
             print(f"{most // 1024} MB at most", file=sys.stderr)
-            self.assertLess(most, 300 * 1024)
+            self.assertLess(most, 214 * 1024)
 
     @real
     def test_idle_sleeps(self):

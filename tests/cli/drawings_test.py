@@ -23,6 +23,8 @@ INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 
 # What drawing programs write. Each drawing has 1200 x 900 pixels and is bent a little.
 BLUE = "<rect x='200' y='150' width='800' height='600' fill='#24c'/>"
+RSVG = tuple(int(each) for each in re.findall(r"\d+", subprocess.run(["rsvg-convert", "--version"], check=True, capture_output=True,
+                                                                      text=True).stdout)[:2])
 FEATURES = {
     "the root's color": ("color='#c22'", "<rect x='200' y='150' width='800' height='600' fill='currentColor'/>"),
     "the root's opacity": ("opacity='0.4'", BLUE),
@@ -57,6 +59,8 @@ FEATURES = {
     "text in parts": ("", "<text font-size='90'><tspan x='700' y='500'>Words</tspan></text>"),
     "a small frame": ("", "<g transform='scale(1e-9)'><path d='M2e11 4e11H9e11' stroke='#123' stroke-width='1e11'/></g>"),
     "names with a prefix": ("prefix", "<s:rect x='200' y='150' width='800' height='600' fill='#24c'/>"),
+    "a copy of a viewport with a size": ("", "<defs><svg id='v'><rect width='900' height='900' fill='#284'/></svg></defs>"
+                                         "<use href='#v' x='300' y='300' width='300' height='200'/>")
 }
 
 
@@ -247,6 +251,8 @@ class Drawings(Case):
                 pose = [[[x + self.chance.uniform(-20, 20), y + self.chance.uniform(-20, 20)]] for x, y in rest]
                 path = self.write("a.json", {"format": "holomorph", "version": 1, "image": {"file": "a.svg"}, "method": {"id": "cage"},
                                              "cage": {"rest": [[p] for p in rest], "pose": pose}})
+                if feature == "a copy of a viewport" and RSVG >= (2, 60):
+                    continue  # rsvg-convert does not clip it, against SVG 2 and its earlier versions
                 average, far = self.compare(path, "--rect", "50,50,1100,800")
                 self.assertLess(far, 0.02 if "pattern" in feature else 0.003)
                 self.assertLess(average, 3)
