@@ -9,6 +9,7 @@
 #include "scene/document.h"
 #include "scene/keyframes.h"
 #include "scene/motion.h"
+#include "system/program.h"
 
 namespace holomorph {
 namespace {
@@ -36,19 +37,6 @@ constexpr SampleRow kRows[] = {
      "A cage, and pins that turn the leaves and the head."}};
 constexpr double kThumbnail = 320;  ///< length of the longer side in pixels
 
-/// The folder with the samples. If the program is not installed, this is the folder in the source
-/// tree from which it was built.
-Path assets() {
-  std::error_code error;
-  const Path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const Path installed = program.parent_path().parent_path() / "share/holomorph/assets";
-  return !error && path_exists(installed) ? installed : Path(HOLOMORPH_ASSETS);
-}
-
-}  // namespace
-
-namespace {
-
 Image thumbnail_of(const Path& scene) {
   const LoadedScene loaded = load_scene(scene);
   PictureOptions options;
@@ -60,7 +48,7 @@ Image thumbnail_of(const Path& scene) {
 
 const std::vector<Sample>& Samples::shown() {
   if (!std::exchange(listed_, true)) {
-    const Path folder = assets();
+    const Path folder = data_file("assets", HOLOMORPH_ASSETS);
     for (const SampleRow& row : kRows)
       if (const Path scene = folder / (std::string(row.name) + ".json"); path_exists(scene))
         samples_.push_back({scene, row.title, row.line, row.text});

@@ -17,6 +17,7 @@
 #include "scene/formats/image.h"
 #include "system/new_file.h"
 #include "system/process.h"
+#include "system/program.h"
 
 namespace holomorph {
 namespace {
@@ -30,10 +31,6 @@ std::string quoted(const std::string& text) {
 
 std::string quoted(const Path& path) {
   return quoted(absolute_path(path).string());
-}
-
-Path this_program() {
-  return std::filesystem::read_symlink("/proc/self/exe");
 }
 
 /// The options that each frame is drawn with.
@@ -109,7 +106,7 @@ std::string script_of(const FarmCommand& command, FrameRange range) {
   const Path script = script_path(command);
   const std::map<std::string, std::string> values{
       {"log", Path(script).replace_extension(".log").string()},
-      {"program", quoted(this_program())},
+      {"program", quoted(program_file())},
       {"scene", quoted(command.scene)},
       {"frames", quoted(command.out)},
       {"script", quoted(script)},

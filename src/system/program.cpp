@@ -1,0 +1,15 @@
+#include "system/program.h"
+
+namespace holomorph {
+
+Path program_file() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+
+Path data_file(const std::string& name, const Path& built) {
+  const Path installed = program_file().parent_path().parent_path() / "share/holomorph" / name;
+  return path_exists(installed) ? installed : built;
+}
+
+}  // namespace holomorph
