@@ -6,6 +6,7 @@
 #include "core/isometric/isometric_space.h"
 #include "core/isometric/mesh_display.h"
 #include "core/maps/distortion.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 
 namespace holomorph::bench {

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/maps/acting_pins.h"
 #include "core/maps/distortion.h"
+#include "core/maps/method.h"
 
 namespace holomorph {
 namespace {

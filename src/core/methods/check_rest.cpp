@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/geometry/polyline.h"
+#include "core/mesh/mesh.h"
 
 namespace holomorph {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "core/geometry/similarity.h"
 #include "core/maps/rest.h"
+#include "core/mesh/mesh.h"
 
 namespace holomorph {
 

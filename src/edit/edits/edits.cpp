@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/geometry/polyline.h"
+#include "core/maps/deformer.h"
 #include "core/maps/held_disk.h"
 #include "core/mesh/mesher.h"
 #include "edit/edits/corner_edits.h"

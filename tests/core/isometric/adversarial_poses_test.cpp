@@ -5,6 +5,7 @@
 #include "core/clock.h"
 #include "core/maps/distortion.h"
 #include "core/maps/injectivity.h"
+#include "core/maps/method.h"
 #include "support/catch.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"

@@ -1,6 +1,7 @@
 // The puppet with limits on its distortion.
 
 #include "core/maps/distortion.h"
+#include "core/maps/method.h"
 #include "support/catch.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"

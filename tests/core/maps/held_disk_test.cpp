@@ -3,6 +3,8 @@
 
 #include <random>
 
+#include "core/maps/deformer.h"
+#include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/seeds.h"
