@@ -2,6 +2,7 @@
 #include "core/bounded/psi_space.h"
 
 #include "core/error.h"
+#include "core/solvers/products.h"
 #include "core/solvers/real_form.h"
 
 namespace holomorph {
@@ -44,7 +45,7 @@ PsiSpace::PsiSpace(std::shared_ptr<const BoundaryBasis> basis, const ReferencePo
   MatrixXd re, im;
   if (pins_.rows() > 0) {
     real_columns(pins_, re, im);
-    disks_.quadratic += pin_weight_ * (re * re.transpose() + im * im.transpose());
+    disks_.quadratic += pin_weight_ * (self_product(re) + self_product(im));
   }
   real_columns(distance_.boundary().rows(), re, im);
   dirichlet_ = ShortestLeastSquares(re.transpose());
@@ -66,7 +67,7 @@ ConeTarget PsiSpace::target_of(const BoundedReference& reference, const VectorXc
   target.constant = psi.constant;
   if (pins_.rows() > 0) {
     const VectorXc centered = (wanted.array() - wanted.mean()).matrix() / size_;
-    target.linear -= pin_weight_ * stacked(pins_.adjoint() * centered);
+    target.linear -= pin_weight_ * stacked(adjoint_product(pins_, centered));
     target.constant += 0.5 * pin_weight_ * centered.squaredNorm();
   }
   return target;
@@ -74,7 +75,7 @@ ConeTarget PsiSpace::target_of(const BoundedReference& reference, const VectorXc
 
 void PsiSpace::append_disks(const Points& points, const VectorXc& l, ConeSystem& system) const {
   const MatrixXc c = basis_->values(points);
-  const std::vector<Cone> more = disks((c * l).real());
+  const std::vector<Cone> more = disks(product(c, l).real());
   MatrixXd re, im;
   real_columns(basis_->whitened(c), re, im);
   append_columns(re, system.re);
@@ -93,7 +94,7 @@ BoundedMap PsiSpace::nearest(const BoundedMap& conformal, const BoundedReference
   // If the bounds on l are proved, the disks have positive radii everywhere on the boundary.
   if (settings_.bounds.k == 0 || !conformal.certificate.holds) return conformal;
   ConeSystem system = disks_;
-  system.cones = disks((conformal_.certifier().coordinates() * l).real());
+  system.cones = disks(product(conformal_.certifier().coordinates(), l).real());
   const VectorXd center = VectorXd::Zero(system.unknowns());
   const CertifiedProgram program{
       conformal_.certifier(),
@@ -146,14 +147,14 @@ BoundedReference PsiSpace::convexified(const BoundedReference& reference) const 
   const VectorXd x = solved(convex, target, settings_for(nullptr), start).x;
   BoundedReference nearest = reference;
   const VectorXd u = x.head(m).array().log();
-  const VectorXc fitted = boundary * complex_of(dirichlet_.solve(u));
+  const VectorXc fitted = product(boundary, complex_of(dirichlet_.solve(u)));
   const double turn = (reference.log_fz.imag() - fitted.imag()).mean();
   nearest.log_fz.real() = u;
   nearest.log_fz.imag() = fitted.imag().array() + turn;
   if (bends) {
     const VectorXc unknowns = complex_of(x.tail(2 * n));
-    nearest.psi = boundary * unknowns;
-    nearest.inner_psi = inner * unknowns;
+    nearest.psi = product(boundary, unknowns);
+    nearest.inner_psi = product(inner, unknowns);
   }
   return nearest;
 }
