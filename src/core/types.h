@@ -19,6 +19,13 @@ using VectorXd = Eigen::VectorXd;
 using MatrixXc = Eigen::MatrixXcd;
 using Points = std::vector<Complex>;
 
+/// All rows or columns of a matrix, as an index.
+#if EIGEN_VERSION_AT_LEAST(3, 4, 90)
+inline const auto& kAll = Eigen::placeholders::all;
+#else
+inline const auto& kAll = Eigen::all;
+#endif
+
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr Complex kI{0.0, 1.0};
 

@@ -291,9 +291,9 @@ py::array coordinates(const PointArray& cage_points, const PointArray& points,
     const auto made =
         kind == "harmonic" ? harmonic_coordinates(turned) : mean_value_coordinates(turned);
     if (order == 0)
-      values = made->values(points.points)(Eigen::all, columns);
+      values = made->values(points.points)(kAll, columns);
     else
-      slopes = made->slopes(points.points)(Eigen::all, columns);
+      slopes = made->slopes(points.points)(kAll, columns);
   }
   if (order == 0) return matrix_array(std::move(values));
   return matrix_array(std::move(slopes));

@@ -48,8 +48,8 @@ AngleMap::AngleMap(const Mesh& mesh, std::shared_ptr<const HilbertCoordinates> c
     parts.re.resize(static_cast<Index>(points.size()), at_anchor_.size());
     parts.im.resize(parts.re.rows(), parts.re.cols());
     coordinates_->for_each_group(points, 0, [&](const PointGroup& group, const MatrixXc& rows) {
-      parts.re(group.indices, Eigen::all) = rows.real().template cast<T>();
-      parts.im(group.indices, Eigen::all) = (rows.imag().rowwise() - at_anchor_).template cast<T>();
+      parts.re(group.indices, kAll) = rows.real().template cast<T>();
+      parts.im(group.indices, kAll) = (rows.imag().rowwise() - at_anchor_).template cast<T>();
     });
     h_ = std::move(parts);
   };

@@ -185,7 +185,7 @@ void HilbertCoordinates::set_up_vertices() {
     vertices_.push_back(std::move(vertex));
   }
   // A logarithm's imaginary part decreases by the inner angle as the boundary passes the vertex.
-  slopes_ = parts_.jumps(jumping, Eigen::all);
+  slopes_ = parts_.jumps(jumping, kAll);
   for (size_t k = 0; k < jumping.size(); ++k)
     slopes_.row(static_cast<Index>(k)) /= angle(jumping[k]);
 }
@@ -256,11 +256,10 @@ HilbertCoordinates::Rows HilbertCoordinates::rows_at(const Points& points) const
     const Index first = block * kBlock, size = std::min(kBlock, count - first);
     const MatrixXc values = functions_.values(
         std::span(points).subspan(static_cast<size_t>(first), static_cast<size_t>(size)), 0);
-    rows.unknowns.block(0, first, unknowns, size) =
-        values(Eigen::all, unknowns_).real().transpose();
+    rows.unknowns.block(0, first, unknowns, size) = values(kAll, unknowns_).real().transpose();
     rows.unknowns.block(unknowns, first, unknowns, size) =
-        -values(Eigen::all, unknowns_).imag().transpose();
-    rows.logarithms.middleCols(first, size) = values(Eigen::all, logarithms_).imag().transpose();
+        -values(kAll, unknowns_).imag().transpose();
+    rows.logarithms.middleCols(first, size) = values(kAll, logarithms_).imag().transpose();
   });
   rows.unknowns.bottomRows(holes).setZero();  // not single-valued
   return rows;
@@ -305,8 +304,8 @@ std::vector<double> HilbertCoordinates::solve(double tolerance) {
   }
   x.array().colwise() /= norms.array();
   coefficients_.resize(functions_.count(), x.cols());
-  coefficients_(unknowns_, Eigen::all) = x.topRows(unknowns()) + kI * x.bottomRows(unknowns());
-  coefficients_(logarithms_, Eigen::all) = kI * slopes_;
+  coefficients_(unknowns_, kAll) = x.topRows(unknowns()) + kI * x.bottomRows(unknowns());
+  coefficients_(logarithms_, kAll) = kI * slopes_;
   error_ = *std::ranges::max_element(errors);
   return errors;
 }
@@ -333,7 +332,7 @@ void HilbertCoordinates::for_each_group(std::span<const Complex> points, int ord
 MatrixXc HilbertCoordinates::at(std::span<const Complex> points, int order) const {
   MatrixXc values(static_cast<Index>(points.size()), coefficients_.cols());
   for_each_group(points, order, [&](const PointGroup& group, const MatrixXc& rows) {
-    values(group.indices, Eigen::all) = rows;
+    values(group.indices, kAll) = rows;
   });
   return values;
 }

@@ -224,7 +224,7 @@ void HilbertFunctions::visit_batch(std::span<const PointGroup> groups, const Mat
   for (const auto& [group, near] : interpolated) {
     MatrixXc sums = matrix_product(interpolation(*group), at_nodes.middleRows(first, kCircleNodes));
     if (!near.empty())
-      sums += matrix_product(values_of(near, group->points, order), coefficients(near, Eigen::all));
+      sums += matrix_product(values_of(near, group->points, order), coefficients(near, kAll));
     visit(*group, sums);
     first += kCircleNodes;
   }

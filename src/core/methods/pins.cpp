@@ -96,7 +96,7 @@ struct PinBasis {
   }
 
   MatrixXc independent(const MatrixXc& rows) const {
-    return kept.size() == static_cast<size_t>(rows.cols()) ? rows : rows(Eigen::all, kept).eval();
+    return kept.size() == static_cast<size_t>(rows.cols()) ? rows : rows(kAll, kept).eval();
   }
 
   /// Returns the grid point that is deepest inside the outline.
