@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/mesh/inbetween.h"
+#include "core/solvers/products.h"
 
 namespace holomorph {
 namespace {
@@ -12,6 +13,10 @@ namespace {
 /// The value of smooth motion from 0 to 1 that starts and ends at rest.
 double smoothstep(double u) {
   return u * u * (3 - 2 * u);
+}
+
+LogMap between(const LogMap& a, const LogMap& b, double part) {
+  return {(1 - part) * a.l + part * b.l, (1 - part) * a.w + part * b.w};
 }
 
 }  // namespace
@@ -235,6 +240,103 @@ LogMap LogInbetween::constrained_change(const Kept& kept, Sum sum, bool conforma
   return sum.change;
 }
 
+/// The same within bounds on the boundary. Where a sample is outside a bound, its value is
+/// prescribed from then on: |nu|, or the logarithm Re l + ln(1 - |nu|) of the size.
+LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& bounds) const {
+  constexpr int kSteps = 12;
+  constexpr double kNone = 1e-9, kClose = 1e-7;
+  const MatrixXc &c = certifier_.coordinates(), &whitened = basis_->at_samples();
+  std::vector<Index> sized, sheared;
+  // The worst samples between others.
+  const auto add_worst = [](const Eigen::ArrayXd& gain, std::vector<Index>& samples) {
+    for (Index i = 0, n = gain.size(); i < n; ++i)
+      if (gain[i] > kClose && gain[i] >= gain[(i + 1) % n] && gain[i] > gain[(i + n - 1) % n] &&
+          std::ranges::find(samples, i) == samples.end())
+        samples.push_back(i);
+  };
+  for (int step = 0; step < kSteps && kept.combinations.rows() > 0; ++step) {
+    const LogMap map = single(sum);
+    const VectorXc l = product(c, map.l), nu = product(c, map.w);
+    const Eigen::ArrayXd length = nu.array().abs().max(kNone);
+    const Eigen::ArrayXd size = std::log(bounds.smallest) - l.real().array() -
+                                (1 - length).max(kNone).log(),
+                         shear = length - bounds.shear;
+    const Derivatives d = weighted(sum);
+    TreeIntegrals::Change change{kept.combinations,
+                                 kept.targets - kept.combinations * integrals_.of(d.phi, d.psi)};
+    if (std::max({size.maxCoeff(), shear.maxCoeff(),
+                  change.wanted.cwiseAbs().maxCoeff() / size_}) <= kClose)
+      break;
+    add_worst(size, sized);
+    add_worst(shear, sheared);
+    const Index sizes = static_cast<Index>(sized.size()),
+                shears = static_cast<Index>(sheared.size());
+    change.rows_l = MatrixXc::Zero(sizes + shears, whitened.cols());
+    change.rows_w = change.rows_l;
+    change.gains.resize(sizes + shears);
+    for (Index k = 0; k < sizes + shears; ++k) {
+      const bool is_size = k < sizes;
+      const Index i =
+          is_size ? sized[static_cast<size_t>(k)] : sheared[static_cast<size_t>(k - sizes)];
+      const Complex outward = std::conj(nu[i]) / length[i];
+      if (is_size) change.rows_l.row(k) = whitened.row(i);
+      change.rows_w.row(k) =
+          whitened.row(i) * (is_size ? -outward / std::max(1 - length[i], kNone) : outward);
+      change.gains[k] = is_size ? size[i] : -shear[i];
+    }
+    const LogMap more = integrals_.smallest(change, *basis_, d);
+    sum.change.l += more.l;
+    sum.change.w += more.w;
+  }
+  return sum.change;
+}
+
+/// Gives the sum the smallest change that certifies, of those that keep stations still and close
+/// holes. Says in `blend` how it went.
+void LogInbetween::Interval::correct(Sum& sum, double share, Blend& blend) const {
+  const Sum blended = sum;
+  const auto certifies_with = [&](const LogMap& change) {
+    sum.change = change;
+    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
+    return blend.certified;
+  };
+  const auto starting_at = [&](const LogMap& change) {
+    Sum start = blended;
+    start.change = change;
+    return start;
+  };
+  const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
+  // From a start at a change of l alone, which does not increase |nu|, others are found. Between
+  // samples, limits may be exceeded by more than the proof allows; then there is a margin.
+  const auto certifies_within_limits = [&](const Kept& kept, const LogMap& least) {
+    if (!is_nu(blended) || conformal) return false;
+    const LogMap alone = owner->constrained_change(kept, blended, true);
+    for (const double part : {0.0, 0.5, 1.0})
+      for (const double margin : {0.0, 0.02})
+        if (certifies_with(owner->bounded_change(
+                kept, starting_at(between(least, alone, part)),
+                {(1 - margin) * std::max(keys[1]->extremes.shear, keys[2]->extremes.shear),
+                 (1 + margin) * std::min(keys[1]->extremes.smallest, keys[2]->extremes.smallest)})))
+          return true;
+    return false;
+  };
+  const Kept kept{constant, (1 - share) * at_from + share * at_to};
+  const LogMap whole = owner->constrained_change(kept, blended, conformal);
+  if (certifies_with(whole) || certifies_within_limits(kept, whole)) return;
+  // Otherwise the map moves toward the blend, which certifies. Holes stay closed.
+  const Index holes = static_cast<Index>(owner->loops_.paths().size());
+  const Kept closed{kept.combinations.bottomRows(holes), kept.targets.tail(holes)};
+  const LogMap least = owner->constrained_change(closed, blended, conformal);
+  constexpr double kLeast = 1e-3;
+  for (blend.held = 0.5;; blend.held = blend.held > kLeast ? 0.5 * blend.held : 0) {
+    if (certifies_with(owner->constrained_change(
+            closed, starting_at(between(least, whole, blend.held)), conformal)))
+      return;
+    if (blend.held == 0) break;
+  }
+  if (!certifies_within_limits(closed, least)) sum.change = least;
+}
+
 LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
   const double v = 1 - u, share = smooth ? smoothstep(u) : u;
   const std::array<double, 4> bernstein =
@@ -245,48 +347,7 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
     for (size_t k = 0; k < 4; ++k) weights[k] += bernstein[p] * controls[p][k];
   Sum sum = owner->sum_of(keys, weights);
   Blend blend;
-  const auto certifies_with = [&](const LogMap& change) {
-    sum.change = change;
-    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
-    return blend.certified;
-  };
-  const Sum blended = sum;
-  const auto between = [&](const LogMap& a, const LogMap& b, double part) {
-    Sum middle = blended;
-    middle.change.l = (1 - part) * a.l + part * b.l;
-    middle.change.w = (1 - part) * a.w + part * b.w;
-    return middle;
-  };
-  const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
-  const Kept kept{constant, (1 - share) * at_from + share * at_to};
-  const LogMap whole = owner->constrained_change(kept, blended, conformal);
-  // A larger change, of l alone, does not increase |nu|, but the size changes more. In between,
-  // both change less.
-  const auto certifies_otherwise = [&] {
-    if (conformal) return false;
-    const LogMap alone = owner->constrained_change(kept, blended, true);
-    return certifies_with(alone) ||
-           certifies_with(owner->constrained_change(kept, between(whole, alone, 0.5), false));
-  };
-  // If nothing certifies, the map moves toward the blend, which does. Holes stay closed.
-  if (!certifies_with(whole) && !certifies_otherwise()) {
-    const Index holes = static_cast<Index>(owner->loops_.paths().size());
-    const Kept closed{kept.combinations.bottomRows(holes), kept.targets.tail(holes)};
-    const LogMap least = owner->constrained_change(closed, blended, conformal);
-    constexpr double kLeast = 1e-3;
-    blend.held = 0.5;
-    while (!certifies_with(
-               owner->constrained_change(closed, between(least, whole, blend.held), conformal)) &&
-           blend.held > 0)
-      blend.held = blend.held > kLeast ? 0.5 * blend.held : 0;
-    // The last resort for holes is a change of l alone.
-    if (!blend.certified && holes > 0 && !conformal) {
-      const LogMap alone = owner->constrained_change(closed, blended, true);
-      if (!certifies_with(alone))
-        certifies_with(owner->constrained_change(closed, between(least, alone, 0.5), false));
-    }
-    if (!blend.certified) sum.change = least;
-  }
+  correct(sum, share, blend);
   MapOnMesh::Values values = owner->on_mesh(sum);
   blend.first = std::move(values.first);
   blend.f = std::move(values.f);

@@ -3,8 +3,8 @@
 // With l and nu of both keys blended by the same convex weights, |nu| and the smallest stretch stay
 // within the bounds of the keys, because they are convex. Smooth motion is a Bezier curve whose
 // inner points are certified, so all of its points are. Then the smallest change keeps those
-// stations still that both keys hold, and closes holes. If it does not certify, a change of l alone
-// is tried, one between the two, and then smaller changes, which still close holes.
+// stations still that both keys hold, and closes holes. If it does not certify, the smallest change
+// within the keys' extremes is tried, and then smaller changes, which still close holes.
 #pragma once
 
 #include <array>
@@ -50,6 +50,14 @@ class LogInbetween {
     double gap = 0;
   };
 
+ private:
+  /// The sum of weighted maps, and a change in L_nu.
+  struct Sum {
+    std::vector<std::pair<double, const LogMap*>> terms;
+    LogMap change;
+  };
+
+ public:
   /// The motion from one key to the next. The keys must outlive it.
   class Interval {
    public:
@@ -59,6 +67,7 @@ class LogInbetween {
 
    private:
     friend class LogInbetween;
+    void correct(Sum& sum, double share, Blend& blend) const;
     const LogInbetween* owner = nullptr;
     std::array<const Key*, 4> keys{};  ///< the one before, both ends, and the one after
     /// Four points of a Bezier curve, as weights of the keys.
@@ -78,11 +87,6 @@ class LogInbetween {
                     bool smooth, const std::vector<char>& held) const;
 
  private:
-  /// The sum of weighted maps, and a change in L_nu.
-  struct Sum {
-    std::vector<std::pair<double, const LogMap*>> terms;
-    LogMap change;
-  };
   static bool is_nu(const Sum& sum);
   static LogMap single(const Sum& sum);
   Sum sum_of(const std::array<const Key*, 4>& keys, const std::array<double, 4>& weights) const;
@@ -97,6 +101,7 @@ class LogInbetween {
     VectorXc targets;
   };
   LogMap constrained_change(const Kept& kept, Sum sum, bool conformal) const;
+  LogMap bounded_change(const Kept& kept, Sum sum, const Extremes& bounds) const;
   MapOnMesh::Values on_mesh(const Sum& sum) const;
   VectorXc without_jumps(VectorXc f, const VectorXc& gaps) const;
 

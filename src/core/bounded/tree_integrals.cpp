@@ -52,10 +52,17 @@ LogMap TreeIntegrals::smallest(const Change& change, const BoundaryBasis& basis,
   real_columns(a, are, aim);
   real_columns(b, bre, bim);
   real_columns(c, cre, cim);
-  MatrixXd columns(4 * n, 2 * rows);
-  columns << are + bre, aim - bim, cre, -cim;
-  const VectorXd x =
-      columns * solve_symmetric(columns.transpose() * columns, stacked(change.wanted));
+  const Index more = change.gains.size();
+  MatrixXd columns(4 * n, 2 * rows + more);
+  columns.leftCols(2 * rows) << are + bre, aim - bim, cre, -cim;
+  VectorXd wanted(2 * rows + more);
+  wanted << stacked(change.wanted), change.gains;
+  if (more > 0) {
+    real_columns(change.rows_l, are, aim);
+    real_columns(change.rows_w, bre, bim);
+    columns.rightCols(more) << are, bre;
+  }
+  const VectorXd x = columns * solve_symmetric(columns.transpose() * columns, wanted);
   LogMap result{VectorXc::Zero(basis.size()), VectorXc::Zero(basis.size()), change.second};
   if (!x.allFinite()) return result;
   result.l = basis.coefficients(complex_of(x.head(2 * n)));

@@ -37,6 +37,10 @@ class TreeIntegrals {
     VectorXc wanted;        ///< one for each row
     LogMap::Second second = LogMap::Second::nu;
     bool conformal = false;  ///< only l changes
+    /// More conditions, on the whitened unknowns x of l and y of w: Re(rows_l x + rows_w y) =
+    /// gains.
+    MatrixXc rows_l = {}, rows_w = {};
+    VectorXd gains = {};
   };
   /// The smallest such change, as coefficients. Sizes are mean squares on the boundary. `at` holds
   /// the weighted values of Phi' and Psi' at the nodes.
