@@ -70,7 +70,7 @@ class BundleTest(unittest.TestCase):
 
     def test_the_window_opens_with_the_fonts_of_the_folder(self):
         with Display() as display:
-            display.run("strace", "-f", "-e", "trace=openat", "-o", os.path.join(self.work, "opened"), self.program,
+            display.run("strace", "-D", "-f", "-e", "trace=openat", "-o", os.path.join(self.work, "opened"), self.program,
                         os.path.join(self.moved, "share/holomorph/assets/fish.json"))
             end = time.time() + 60
             colors = 0
