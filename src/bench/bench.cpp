@@ -44,7 +44,7 @@ std::vector<Row> chosen_rows(const std::string& filter, Extent extent) {
     if (is_chosen(benchmark, filter, extent))
       for (const Row& row : benchmark.rows)
         if (contains(row.name, filter)) rows.push_back(row);
-  if (compares(filter, extent)) rows.push_back({kCompared, "ms"});
+  if (compares(filter, extent)) rows.push_back({std::string(kCompared) + "each method", "ms"});
   return rows;
 }
 

@@ -60,7 +60,9 @@ Machine this_machine() {
 }
 
 std::string line_of(const Row& row) {
-  return row.name + (row.goal ? "  (goal " + number(*row.goal) + " " + row.unit + ")" : "");
+  return row.name +
+         (row.goal ? "  (goal " + number(*row.goal) + (row.unit.empty() ? "" : " ") + row.unit + ")"
+                   : "");
 }
 
 std::string line_of(const Result& result) {

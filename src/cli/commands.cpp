@@ -121,17 +121,23 @@ void run(const BenchCommand& command) {
   // If standard error is a terminal but the table goes elsewhere, show each line there as well.
   const bool shows_progress = ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO);
   std::optional<LastOutput> tail;
-  if (command.json) {
-    write_standard_output(bench::json_head(bench::this_machine()));
-    tail.emplace(bench::kJsonTail);
-  }
+  const auto write = [&](const std::string& text) {
+    const DeferredStop whole;  // a signal does not divide the text
+    write_standard_output(text);
+    if (command.json && !tail) tail.emplace(bench::kJsonTail);
+    if (!is_interrupted()) return;
+    if (tail) tail->write();
+    throw Interrupted{};
+  };
+  if (command.json) write(bench::json_head(bench::this_machine()));
   bool is_first = true;
   bench::measure(command.filter, extent, [&](const bench::Result& result) {
     const std::string line = bench::line_of(result) + bench::change_since(before, result) + "\n";
-    write_standard_output(command.json ? bench::json_row(result, is_first) : line);
+    write(command.json ? bench::json_row(result, is_first) : line);
     if (shows_progress) std::cerr << line;
     is_first = false;
   });
+  const DeferredStop whole;
   if (tail) tail->write();
 }
 

@@ -135,6 +135,8 @@ void check_farm(const FarmCommand& command) {
         ErrorKind::bad_input,
         "--engine: '" + command.engine +
             "' is not known; the engine is slurm. The manual says what another queue needs");
+  if (program_file().empty())
+    throw Error(ErrorKind::failed, "/proc does not say where this program is; mount /proc");
   for (const Path& path : {command.scene, command.out})
     if (is_standard(path))
       throw Error(ErrorKind::bad_input, "other machines need files; name them instead of -");

@@ -8,7 +8,9 @@ Path program_file() {
 }
 
 Path data_file(const std::string& name, const Path& built) {
-  const Path installed = program_file().parent_path().parent_path() / "share/holomorph" / name;
+  const Path program = program_file();
+  if (program.empty()) return built;
+  const Path installed = program.parent_path().parent_path() / "share/holomorph" / name;
   return path_exists(installed) ? installed : built;
 }
 

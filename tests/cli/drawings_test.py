@@ -252,7 +252,7 @@ class Drawings(Case):
                 path = self.write("a.json", {"format": "holomorph", "version": 1, "image": {"file": "a.svg"}, "method": {"id": "cage"},
                                              "cage": {"rest": [[p] for p in rest], "pose": pose}})
                 if feature == "a copy of a viewport" and RSVG >= (2, 60):
-                    continue  # rsvg-convert does not clip it, against SVG 2 and its earlier versions
+                    continue  # rsvg-convert does not clip it, contrary to SVG 2 and to its own earlier versions
                 average, far = self.compare(path, "--rect", "50,50,1100,800")
                 self.assertLess(far, 0.02 if "pattern" in feature else 0.003)
                 self.assertLess(average, 3)

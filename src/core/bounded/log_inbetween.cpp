@@ -240,8 +240,9 @@ LogMap LogInbetween::constrained_change(const Kept& kept, Sum sum, bool conforma
   return sum.change;
 }
 
-/// The same within bounds on the boundary. Where a sample is outside a bound, its value is
-/// prescribed from then on: |nu|, or the logarithm Re l + ln(1 - |nu|) of the size.
+/// Like constrained_change(), but also keeps |nu| and the size within bounds at the samples of the
+/// boundary. Where a sample is outside a bound, its value is prescribed from then on: |nu|, or the
+/// logarithm Re l + ln(1 - |nu|) of the size.
 LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& bounds) const {
   constexpr int kSteps = 12;
   constexpr double kNone = 1e-9, kClose = 1e-7;
@@ -306,11 +307,14 @@ void LogInbetween::Interval::correct(Sum& sum, double share, Blend& blend) const
     return start;
   };
   const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
-  // From a start at a change of l alone, which does not increase |nu|, others are found. Between
-  // samples, limits may be exceeded by more than the proof allows; then there is a margin.
+  // Starts at several changes between the least one and a change of l alone, which does not
+  // increase |nu|. If limits are exceeded between samples, tries limits that are 2 % tighter.
   const auto certifies_within_limits = [&](const Kept& kept, const LogMap& least) {
-    if (!is_nu(blended) || conformal) return false;
+    if (conformal || kept.combinations.rows() == 0) return false;
     const LogMap alone = owner->constrained_change(kept, blended, true);
+    if (!is_nu(blended))
+      return certifies_with(alone) || certifies_with(owner->constrained_change(
+                                          kept, starting_at(between(least, alone, 0.5)), false));
     for (const double part : {0.0, 0.5, 1.0})
       for (const double margin : {0.0, 0.02})
         if (certifies_with(owner->bounded_change(
