@@ -49,8 +49,8 @@ double prepare_method_ms(const char* method, int points, int runs);
 double add_pin_ms(int runs);
 double frame_ms(int runs);
 
-/// The memory that the process has with a picture and a map. Measures nothing else if it is the
-/// first benchmark.
+/// The memory of the process with a picture and a map. Earlier benchmarks would add theirs, so this
+/// one is the first.
 double memory_mb();
 /// The time of the slowest method for the map at every pixel of a picture of 2000 x 2000, which a
 /// cage of 32 points and three pins bend.

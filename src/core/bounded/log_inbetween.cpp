@@ -248,7 +248,7 @@ LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& b
   constexpr double kNone = 1e-9, kClose = 1e-7;
   const MatrixXc &c = certifier_.coordinates(), &whitened = basis_->at_samples();
   std::vector<Index> sized, sheared;
-  // The worst samples between others.
+  // Adds the samples that exceed a bound by more than their neighbors do.
   const auto add_worst = [](const Eigen::ArrayXd& gain, std::vector<Index>& samples) {
     for (Index i = 0, n = gain.size(); i < n; ++i)
       if (gain[i] > kClose && gain[i] >= gain[(i + 1) % n] && gain[i] > gain[(i + n - 1) % n] &&
