@@ -15,7 +15,7 @@ struct LeastSquares::Factor {
   Eigen::HouseholderQR<MatrixXc> qr;
 };
 LeastSquares::LeastSquares(const MatrixXc& a)
-    : factor_(std::make_shared<const Factor>(Eigen::HouseholderQR<MatrixXc>(a))) {}
+    : factor_(new Factor{Eigen::HouseholderQR<MatrixXc>(a)}) {}
 VectorXc LeastSquares::solve(const VectorXc& b) const {
   check(factor_ != nullptr, "least squares: a factorization");
   return factor_->qr.solve(b);
@@ -25,8 +25,7 @@ struct ShortestLeastSquares::Factor {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr;
 };
 ShortestLeastSquares::ShortestLeastSquares(const MatrixXd& a)
-    : factor_(std::make_shared<const Factor>(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a))) {
-}
+    : factor_(new Factor{Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a)}) {}
 VectorXd ShortestLeastSquares::solve(const VectorXd& b) const {
   check(factor_ != nullptr, "least squares: a factorization");
   return factor_->qr.solve(b);
