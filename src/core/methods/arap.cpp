@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kMostRounds = 120, kDraftRounds = 2;
 constexpr Index kManyVertices = 30'000;  ///< drafts of meshes with more have one round
+constexpr int kFreeRounds = 40;          ///< that may raise the energy
 constexpr double kSmallestMove = 1e-5;   ///< largest displacement per round, relative to the size
 
 class ArapDeformer final : public Deformer {
@@ -75,6 +76,8 @@ class ArapDeformer final : public Deformer {
  private:
   struct Found : Solution {
     VectorXc f;                   ///< at the vertices
+    Points targets;               ///< of the handles
+    int rounds = 0;               ///< with these targets, in this and earlier drafts
     std::optional<Complex> turn;  ///< rotation of the whole picture when it moves rigidly
   };
 
@@ -94,8 +97,12 @@ class ArapDeformer final : public Deformer {
       return found;
     }
     const bool continues = options.draft && before && before->f.size() == vertices();
-    Minimized least = minimized(targets, options, continues ? before->f : start(targets));
+    found.targets = targets;
+    if (continues && before->targets == targets) found.rounds = before->rounds;
+    Minimized least =
+        minimized(targets, options, continues ? before->f : start(targets), found.rounds);
     out.iterations = least.rounds;
+    found.rounds += least.rounds;
     if (least.still_moves) out.status = SampledMap::Status::iterating;
     found.f = std::move(least.f);
     return found;
@@ -116,13 +123,18 @@ class ArapDeformer final : public Deformer {
     int rounds = 0;
     bool still_moves = false;  ///< whether the last round has moved f
   };
-  Minimized minimized(const Points& targets, const EvalOptions& options, VectorXc f) const {
+  /// Continues from f, after `earlier` rounds with the same targets.
+  Minimized minimized(const Points& targets, const EvalOptions& options, VectorXc f,
+                      int earlier) const {
     int round = 0;
     double moved = HUGE_VAL;
     for (; round < most_rounds(options) && moved > kSmallestMove * size_; ++round) {
       throw_if_stopped(options.stop);
       const VectorXc before = f;
-      energy_.cycle(targets, f);
+      if (earlier + round < kFreeRounds)
+        energy_.cycle(targets, f);
+      else
+        energy_.descend(targets, f);
       moved = (f - before).cwiseAbs().maxCoeff();
     }
     return {std::move(f), round, moved > kSmallestMove * size_};

@@ -5,6 +5,7 @@
 
 #include "core/arithmetic.h"
 #include "core/error.h"
+#include "core/maps/distortion.h"
 #include "core/mesh/coarser.h"
 
 namespace holomorph {
@@ -89,6 +90,7 @@ RigidEnergy::RigidEnergy(std::shared_ptr<const Mesh> shared, std::span<const Bru
     stiffness_.push_back(std::pow(10, stiffness_level(stiffness, middle)));
     stiffest = std::max(stiffest, stiffness_.back());
     const double area = area_of(mesh, t);
+    rounding_ += 1e-15 * stiffness_.back() * area;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
         const double weight =
@@ -162,10 +164,37 @@ void RigidEnergy::cycle(const Points& targets, VectorXc& f) const {
   improve(pull(targets), f);
 }
 
+void RigidEnergy::descend(const Points& targets, VectorXc& f) const {
+  const VectorXc start = f;
+  const double before = value(targets, start), most = before + 1e-10 * before + rounding_;
+  cycle(targets, f);
+  if (value(targets, f) <= most) return;
+  f = 0.5 * (start + f);
+  iterate(targets, f);
+  if (value(targets, f) <= most) return;
+  f = start;
+  iterate(targets, f);
+}
+
+double RigidEnergy::value(const Points& targets, const VectorXc& f) const {
+  double sum = 0;
+  for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
+    const Triangle& t = mesh_->triangles[i];
+    const auto [fz, fzbar] = derivatives_in(*mesh_, t, f);
+    sum += stiffness_[i] * area_of(*mesh_, t) * (std::pow(std::abs(fz) - 1, 2) + std::norm(fzbar));
+  }
+  for (size_t h = 0; h < targets.size(); ++h) {
+    Complex place = 0;
+    for (const auto& [v, weight] : handles_[h]) place += weight * f[v];
+    sum += handle_weight_ * std::norm(place - targets[h]);
+  }
+  return sum;
+}
+
 /// Makes the energy for targets 0, minus twice the real part of the inner product of `load` and f,
 /// smaller. On the coarser mesh, the load is such that a map there in the same state has the
 /// gradient of the finer map. A correction that raises the energy is kept, too: refusing it left
-/// large drags with more energy a few frames later.
+/// large drags with more energy a few frames later. descend() refuses it.
 void RigidEnergy::improve(const VectorXc& load, VectorXc& f) const {
   const auto iterate = [&] { f = factor_.solve(turned_by(rotations_of(f)) + load); };
   if (!coarser_) {

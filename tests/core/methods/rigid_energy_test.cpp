@@ -58,7 +58,7 @@ double movement(const RigidEnergy& energy, const Points& targets, const VectorXc
 }  // namespace
 
 TEST_CASE("Rigid energy: where cycles end, published iterations do not move either") {
-  for (const unsigned seed : seeds_of("rigid cycles", {1, 2, 3})) {
+  for (const unsigned seed : seeds_of("rigid cycles", {1, 2, 3, 1835551510u})) {
     std::mt19937 random(seed);
     HeldBar bar(1000 + static_cast<int>(random() % 5000), 1.2 * random_complex(random).real());
     for (Complex& target : bar.targets) target += 3.0 * random_complex(random);
@@ -66,12 +66,16 @@ TEST_CASE("Rigid energy: where cycles end, published iterations do not move eith
       bar.stiffness.push_back({{300, 50}, 150, 1.5 * random_complex(random).real()});
     const RigidEnergy energy = bar.energy();
     VectorXc f = bar.at_rest();
-    // A bar that buckles stays for long where it hardly moves, far from the minimum.
+    // A bar that buckles stays for long where it hardly moves, far from the minimum. With the last
+    // seed, cycles alone lead back and forth between two states forever.
     int cycles = 0;
     for (double moved = 1; moved > 1e-7; ++cycles) {
       REQUIRE(cycles < 1000);
       const VectorXc before = f;
-      energy.cycle(bar.targets, f);
+      if (cycles < 40)
+        energy.cycle(bar.targets, f);
+      else
+        energy.descend(bar.targets, f);
       moved = (f - before).cwiseAbs().maxCoeff();
     }
     CAPTURE(seed, bar.mesh->vertices.size(), cycles);
