@@ -14,12 +14,12 @@ const Points kBar{{0, 0}, {300, 0}, {300, 100}, {0, 100}};
 
 void act(TestWorkspace& desk, const char* id) {
   run(id, desk.workspace);
-  desk.workspace.update_map({});
+  desk.update();
 }
 
 void go_to(TestWorkspace& desk, double time) {
   desk.workspace.go_to_time(time);
-  desk.workspace.update_map({});
+  desk.update();
 }
 
 /// A bar with keyframes at 0 (at rest) and at 1 s (moved to the right by 40).
@@ -83,7 +83,7 @@ TEST_CASE("Timeline: with auto-key, edits of the pose set keyframes") {
   act(desk, "time.auto_key");
   go_to(desk, 0.5);
   desk.drag(desk.deformation().pose.vertex(2), Complex(400, 200));
-  desk.workspace.update_map({});
+  desk.update();
   CHECK(desk.workspace.shown.timeline.active);
   REQUIRE(desk.deformation().keyframes.size() == 3);
   CHECK(desk.deformation().keyframes[1].time == 0.5);
@@ -192,14 +192,14 @@ TEST_CASE("Timeline: edits of keyframes do not set poses, even with auto-key") {
   CHECK(desk.workspace.shown.own().keyframes[0].pose == first);
   CHECK(desk.steps() == steps + 1);
   CHECK(desk.workspace.shown.timeline.active);
-  desk.workspace.update_map({});
+  desk.update();
   for (const double time : {1.25, 1.5, 1.75}) {
     const double from = w.shown.own().keyframes[1].time;
     const auto moved = with_keys_moved(w.document.scene(), {{layer, from}}, {1, from, time});
     REQUIRE(moved);
     REQUIRE(w.commit_or_amend_layers("Move key", moved->scene));
     desk.workspace.go_to_time(time);
-    desk.workspace.update_map({});
+    desk.update();
   }
   CHECK(desk.workspace.shown.own().keyframes.size() == 2);
   CHECK(desk.workspace.shown.own().keyframes[1].time == 1.75);
@@ -224,7 +224,7 @@ TEST_CASE("Timeline: selected keyframes are copied and pasted at the current tim
   CHECK(w.shown.own().keyframes.back().pose == second);
   // Without selected keyframes, a pose is copied again.
   w.shown.timeline.keys.clear();
-  desk.workspace.update_map({});
+  desk.update();
   go_to(desk, 0);
   act(desk, "time.copy");
   CHECK(w.copied_keys.empty());
@@ -288,7 +288,7 @@ TEST_CASE("Timeline: edits that do not change the pose keep the scene's own pose
   CHECK(desk.workspace.shown.own().pose.vertex(0) == 40.0);
   // A point is inserted in all keyframes, and the displayed pose becomes the scene's own pose.
   desk.settle();
-  desk.workspace.update_map({});
+  desk.update();
   desk.workspace.commit("Insert", inserted(desk.deformation(), 0, 0.5));
   CHECK(playing_keys(desk.workspace.shown.own()).size() == 2);
   CHECK(desk.deformation().keyframes[1].pose.cage.vertex(1) == Complex(190, 0));
@@ -341,13 +341,13 @@ TEST_CASE("Timeline: the onion skin shows the keyframes before and after") {
   for (Points& segment : deformation.keyframes[1].pose.cage.segments) segment[0] += 7.0;
   desk.workspace.commit("Key", deformation, EditBase::document);
   desk.workspace.shown.timeline.active = false;
-  desk.workspace.update_map({});
+  desk.update();
   CHECK(desk.workspace.onion_skins().back().f[0].real() == Approx(rest + 47).margin(1e-3));
   deformation.keyframes.insert(deformation.keyframes.begin() + 1,
                                {0.75, deformation.keyframes[0].pose});
   deformation.keyframes[1].pose.pins.push_back({{5, 5}});  // does not play
   desk.workspace.commit("Hollow", deformation, EditBase::document);
-  desk.workspace.update_map({});
+  desk.update();
   CHECK(desk.workspace.onion_skins().back().f[0].real() == Approx(rest + 47).margin(1e-3));
   CHECK(desk.workspace.onion_skins().back().later);
   go_to(desk, 0);
@@ -378,7 +378,7 @@ void record(TestWorkspace& desk, MotionPath path = on_arc) {
     desk.workspace.update_map({});
   }
   desk.release(path(2), kCtrl);
-  desk.workspace.update_map({});
+  desk.update();
 }
 
 }  // namespace

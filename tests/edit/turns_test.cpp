@@ -207,7 +207,7 @@ TEST_CASE("Puppet: a keyframe is proved to be free of folds, like the frames aro
   for (const double time : {0.0, 0.5, 1.0}) {
     INFO("at " << time << " s");
     workspace.go_to_time(time);
-    workspace.update_map({});
+    desk.update();
     CHECK(workspace.map().map().status == SampledMap::Status::certified);
     CHECK_THAT(workspace.map().map().note, Catch::Contains("o folds"));
   }

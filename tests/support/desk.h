@@ -26,6 +26,11 @@ struct TestWorkspace {
     settle();
   }
   void settle() { workspace.map().finish(workspace.shown.deformation(), {}); }
+  /// Frames until the worker has done all that they ask for.
+  void update() {
+    do workspace.update_map({});
+    while (workspace.map().busy());
+  }
   Tool& tool() {
     for (const auto& tool : tools)
       if (tool->id() == workspace.tools.active) return *tool;
