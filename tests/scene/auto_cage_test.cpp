@@ -1,6 +1,9 @@
 // Cages around a picture's content.
 #include "scene/auto_cage.h"
 
+#include <algorithm>
+#include <span>
+
 #include "core/cauchy/boundary_basis.h"
 #include "core/error.h"
 #include "core/maps/distortion.h"
@@ -26,6 +29,38 @@ Image blob(int width, int height, double (*radius)(double)) {
   return image;
 }
 
+auto pixels_of(const std::vector<std::uint8_t>& part, int width) {
+  return [part, width](int c, int r) { return part[static_cast<size_t>(r) * width + c] != 0; };
+}
+
+/// How many points of the pixels with `solid(column, row)` a loop does not wind around exactly
+/// once. The point of a pixel is its upper left corner + `offset`.
+template <typename Solid>
+int points_outside(const Image& image, const Solid& solid, const Points& loop, Complex offset) {
+  int outside = 0;
+  std::vector<std::pair<double, int>> crossings;  // where, and how much the winding changes
+  for (int r = 0; r < image.height; ++r) {
+    const double y = image.height - r + offset.imag();
+    crossings.clear();
+    for (size_t k = 0; k < loop.size(); ++k) {
+      const Complex a = loop[k], b = loop[(k + 1) % loop.size()];
+      if ((a.imag() <= y) != (b.imag() <= y))
+        crossings.emplace_back(
+            a.real() + (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()),
+            a.imag() <= y ? -1 : 1);
+    }
+    std::sort(crossings.begin(), crossings.end());
+    int winding = 0;
+    size_t next = 0;
+    for (int c = 0; c < image.width; ++c) {
+      while (next < crossings.size() && crossings[next].first < c + offset.real())
+        winding += crossings[next++].second;
+      outside += solid(c, r) && winding != 1;
+    }
+  }
+  return outside;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -36,25 +71,21 @@ TEST_CASE(
       [](double a) { return 0.05 + 0.4 * std::pow(std::cos(2 * a), 8); }};
   for (const auto radius : radii)
     for (const auto& [width, height] :
-         {std::pair(90, 70), std::pair(400, 300), std::pair(1700, 1300)})
+         {std::pair(90, 70), std::pair(400, 300), std::pair(1700, 1300)}) {
+      if (width > 1000 && radius != radii[1] && !soaks()) continue;
+      Image image = blob(width, height, radius);
+      image.at(1, 1)[3] = 255;  // a speck outside the largest part
+      const auto in_part = pixels_of(largest_part(image), image.width);
       for (const int vertices : {12, 30, 80}) {
-        Image image = blob(width, height, radius);
-        image.at(1, 1)[3] = 255;  // a speck outside the largest part
         const Points cage = vertices_of(auto_cage(image, {vertices}));
         CHECK(static_cast<int>(cage.size()) <= std::max(vertices, 45));
         CHECK_FALSE(self_crossing(cage));
         CHECK(signed_area(cage) > 0);
-        const auto part = largest_part(image);
-        int outside = 0;
-        for (int r = 0; r < height; ++r)
-          for (int c = 0; c < width; ++c)
-            if (part[static_cast<size_t>(r) * width + c])
-              for (const Complex corner :
-                   {Complex(0, 0), Complex(1, 0), Complex(1, 1), Complex(0, 1)})
-                outside += winding_number(cage, Complex(c, height - r - 1) + corner) != 1;
-        CHECK(outside == 0);
+        for (const Complex corner : {Complex(0, 0), Complex(1, 0), Complex(1, -1), Complex(0, -1)})
+          CHECK(points_outside(image, in_part, cage, corner) == 0);
         CHECK(domain_mesh(cage, {300}).triangles.size() > 100);
       }
+    }
 }
 
 TEST_CASE("A curved automatic cage contains the largest part, with fewer control points") {
@@ -70,13 +101,8 @@ TEST_CASE("A curved automatic cage contains the largest part, with fewer control
       CHECK(cage.size() <= std::max(2 * vertices, 45));
       const Polygon flat = outline_of(cage, 64);
       CHECK(signed_area(flat) > 0);
-      const auto part = largest_part(image);
-      int outside = 0;
-      for (int r = 0; r < image.height; ++r)
-        for (int c = 0; c < image.width; ++c)
-          if (part[static_cast<size_t>(r) * image.width + c])
-            outside += winding_number(flat, {c + 0.5, image.height - r - 0.5}) != 1;
-      CHECK(outside == 0);
+      CHECK(points_outside(image, pixels_of(largest_part(image), image.width), flat.points,
+                           {0.5, -0.5}) == 0);
     }
 }
 
@@ -167,21 +193,19 @@ TEST_CASE("Limbs that are 3 px apart are apart in the cage, in any direction") {
       INFO("seed " << seed << ", number " << i << ", " << limbs.image.width << " px");
       CHECK(cage.size() <= 500);
       CHECK_FALSE(self_crossing(cage));
-      int inside = 0, outside = 0;
+      int inside = 0;
       for (const Points& middle : limbs.gaps)
         for (const Complex& z : middle) inside += winding_number(cage, z) != 0;
       CHECK(inside == 0);
-      for (int r = 0; r < limbs.image.height; ++r)
-        for (int c = 0; c < limbs.image.width; ++c)
-          if (limbs.image.at(c, r)[3])
-            outside += winding_number(cage, {c + 0.5, limbs.image.height - r - 0.5}) != 1;
-      CHECK(outside == 0);
+      const auto solid = [&](int c, int r) { return limbs.image.at(c, r)[3] != 0; };
+      CHECK(points_outside(limbs.image, solid, cage, {0.5, -0.5}) == 0);
     }
   }
 }
 
 TEST_CASE("A comb with more teeth than a cage has points still gets a cage") {
-  for (const int teeth : {120, 200, 400}) {
+  const int counts[] = {120, 200, 400};
+  for (const int teeth : std::span(counts).first(few_or_many(1, 3))) {
     Image image(6 * teeth, 300);
     for (int r = 0; r < image.height; ++r)
       for (int c = 0; c < image.width; ++c)
