@@ -16,7 +16,7 @@ import sys
 
 from PIL import Image
 
-from case import PROGRAM, SOURCE, Case, run, seed_of, timed
+from case import PROGRAM, SOURCE, Case, few_or_many, run, seed_of, timed
 
 SEED = seed_of("files")
 FISH = os.path.join(SOURCE, "assets/fish.json")

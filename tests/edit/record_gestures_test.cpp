@@ -93,6 +93,7 @@ TEST_CASE("Recording a ring keeps the motion of the other pins") {
   w.shown.timeline.auto_key = false;
   w.go_to_time(0);
   desk.update();
+  REQUIRE(w.shown.knows_pose());
   desk.settle();
   w.update_map({});
   w.selection = {{Handle::Kind::pin, 1, 0}};
@@ -119,6 +120,7 @@ TEST_CASE("Recording a ring loses no keyframes: they must know the rotation of t
   }
   w.go_to_time(0);
   desk.update();
+  REQUIRE(w.shown.knows_pose());
   const Deformation before = w.shown.own();
   REQUIRE(before.keyframes.size() == 2);
   w.selection = {{Handle::Kind::pin, 1, 0}};

@@ -1,6 +1,9 @@
 // A workspace without a window, and the mouse actions to use it.
 #pragma once
 
+#include <chrono>
+#include <thread>
+
 #include "edit/tools/tool.h"
 #include "support/shapes.h"
 
@@ -26,10 +29,13 @@ struct TestWorkspace {
     settle();
   }
   void settle() { workspace.map().finish(workspace.shown.deformation(), {}); }
-  /// Frames until the worker has done all that they ask for.
+  /// Updates the map, frame by frame, until the worker has nothing left to do.
   void update() {
-    do workspace.update_map({});
-    while (workspace.map().busy());
+    workspace.update_map({});
+    while (workspace.map().busy()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      workspace.update_map({});
+    }
   }
   Tool& tool() {
     for (const auto& tool : tools)
