@@ -36,7 +36,10 @@ class RecordedEditor(Verbs, Session):
 
     def __exit__(self, *_):
         super().__exit__()
-        self.process.stdin.close()
+        try:
+            self.process.stdin.close()
+        except BrokenPipeError:
+            pass  # events were left over for an editor that had ended
         self.process.stdout.close()
 
     def answer(self):
