@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMostRounds = 120, kDraftRounds = 2;
 constexpr Index kManyVertices = 30'000;  ///< drafts of meshes with more have one round
-constexpr int kFreeRounds = 40;          ///< that may raise the energy
+constexpr int kFreeRounds = 40;          ///< with the same targets that may raise the energy
 constexpr double kSmallestMove = 1e-5;   ///< largest displacement per round, relative to the size
 
 class ArapDeformer final : public Deformer {
@@ -77,7 +77,7 @@ class ArapDeformer final : public Deformer {
   struct Found : Solution {
     VectorXc f;                   ///< at the vertices
     Points targets;               ///< of the handles
-    int rounds = 0;               ///< with these targets, in this and earlier drafts
+    int rounds = 0;               ///< with these targets, with those of the maps it continues
     std::optional<Complex> turn;  ///< rotation of the whole picture when it moves rigidly
   };
 

@@ -166,17 +166,17 @@ void RigidEnergy::cycle(const Points& targets, VectorXc& f) const {
 
 void RigidEnergy::descend(const Points& targets, VectorXc& f) const {
   const VectorXc start = f;
-  const double before = value(targets, start), most = before + 1e-10 * before + rounding_;
+  const double before = energy(targets, start), most = before + 1e-10 * before + rounding_;
   cycle(targets, f);
-  if (value(targets, f) <= most) return;
+  if (energy(targets, f) <= most) return;
   f = 0.5 * (start + f);
   iterate(targets, f);
-  if (value(targets, f) <= most) return;
+  if (energy(targets, f) <= most) return;
   f = start;
   iterate(targets, f);
 }
 
-double RigidEnergy::value(const Points& targets, const VectorXc& f) const {
+double RigidEnergy::energy(const Points& targets, const VectorXc& f) const {
   double sum = 0;
   for (size_t i = 0; i < mesh_->triangles.size(); ++i) {
     const Triangle& t = mesh_->triangles[i];
@@ -184,9 +184,9 @@ double RigidEnergy::value(const Points& targets, const VectorXc& f) const {
     sum += stiffness_[i] * area_of(*mesh_, t) * (std::pow(std::abs(fz) - 1, 2) + std::norm(fzbar));
   }
   for (size_t h = 0; h < targets.size(); ++h) {
-    Complex place = 0;
-    for (const auto& [v, weight] : handles_[h]) place += weight * f[v];
-    sum += handle_weight_ * std::norm(place - targets[h]);
+    Complex image = 0;
+    for (const auto& [v, weight] : handles_[h]) image += weight * f[v];
+    sum += handle_weight_ * std::norm(image - targets[h]);
   }
   return sum;
 }

@@ -37,9 +37,10 @@ class RigidEnergy {
   /// the error several times smaller, however fine the mesh is. Cost: about twice that of
   /// iterate() on a mesh of thousands of vertices; on smaller ones, the 30 iterations dominate.
   void cycle(const Points& targets, VectorXc& f) const;
-  /// A cycle that never raises the energy: where it would, half of its step is taken, or one
-  /// iteration. Cycles alone are faster when targets have just moved, but may jump back and forth
-  /// forever between two states of a bar that buckles. Cost: up to half more than that of cycle().
+  /// A cycle that does not raise the energy, except by rounding. If the full step would, half of it
+  /// is tried, followed by an iteration, and then an iteration alone. Cycles without this condition
+  /// are faster when targets have just moved, but may alternate forever between two states of a bar
+  /// that buckles. Cost: at most about twice that of cycle().
   void descend(const Points& targets, VectorXc& f) const;
 
  private:
@@ -52,7 +53,7 @@ class RigidEnergy {
   using Handle = std::vector<Weight>;
   RigidEnergy(std::shared_ptr<const Mesh> mesh, std::span<const BrushDab> stiffness,
               std::vector<Handle> handles, std::optional<double> handle_weight);
-  double value(const Points& targets, const VectorXc& f) const;
+  double energy(const Points& targets, const VectorXc& f) const;
   static std::vector<Handle> handles_at(const Mesh& mesh, const std::vector<Location>& places);
   VectorXc rotations_of(const VectorXc& f) const;  ///< one per triangle
   /// The part of the right-hand side that triangles with these rotations contribute.
@@ -63,7 +64,7 @@ class RigidEnergy {
   std::vector<Handle> handles_;
   std::vector<double> stiffness_;  ///< one per triangle
   double handle_weight_ = 1;
-  double rounding_ = 0;  ///< differences of the energy that do not matter
+  double rounding_ = 0;  ///< rounding error of the energy, at most
   Eigen::SparseMatrix<double> matrix_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   std::shared_ptr<const Coarser> coarser_;  ///< null for the coarsest mesh
