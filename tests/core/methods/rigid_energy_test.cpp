@@ -83,7 +83,7 @@ TEST_CASE("Rigid energy: where cycles end, published iterations do not move eith
         energy.cycle(bar.targets, f);
       else
         energy.descend(bar.targets, f);
-      if (cycles >= 40)
+      if (cycles >= 40 && cycles % 10 == 0)
         REQUIRE(bar.value(energy, f) <= bar.value(energy, before) * (1 + 1e-9) + 1e-9);
       moved = (f - before).cwiseAbs().maxCoeff();
     }
