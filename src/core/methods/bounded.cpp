@@ -210,13 +210,24 @@ class BoundedDeformer final : public Deformer {
   /// Integrates the map along the mesh and aligns it.
   void integrate(const Pose& pose, bool draft, Found& found) const {
     MapOnMesh::Values values = on_mesh_->values(found.solution.map);
-    // Next to the boundary, the quadrature along the tree is off by a thousandth of a pixel.
-    found.f = draft ? std::move(values.f) : on_mesh_->integrated(found.solution.map);
-    if (closing_->has_holes())
-      found.f -= closing_->loops().correction(on_mesh_->tree(), closing_->gaps(found.solution.map));
     found.first = std::move(values.first);
+    // Next to the boundary, the quadrature along the tree is off by a thousandth of a pixel or
+    // more, which may invert small triangles.
+    if (draft) {
+      found.f = without_gaps(found, std::move(values.f));
+      found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
+    }
+    if (!draft || found.flipped_triangles > 0) {
+      found.f = without_gaps(found, on_mesh_->integrated(found.solution.map));
+      found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
+    }
     align(pose, found);
-    found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
+  }
+
+  VectorXc without_gaps(const Found& found, VectorXc f) const {
+    if (closing_->has_holes())
+      f -= closing_->loops().correction(on_mesh_->tree(), closing_->gaps(found.solution.map));
+    return f;
   }
 
   /// Rotates, scales and moves the map to the pins' targets or, with fewer than two pins, to the
