@@ -56,23 +56,25 @@ Complex entry(const StMap& map, int column, int row) {
 
 TEST_CASE("ST-map: the map takes each entry to within a hundredth of its pixel") {
   for (const unsigned seed : seeds_of("ST-map", {5}))
-    for (size_t m = 0; m < methods().size(); m += static_cast<size_t>(few_or_many(2, 1))) {
+    for (size_t m = 0; m < methods().size(); m += static_cast<size_t>(few_or_many(3, 1))) {
       const Method& method = methods()[m];
       const bool curved = (m + seed) % 2 != 0;
       const Scene scene = random_scene(method, curved, seed);
       INFO(method.id << ", seed " << seed << (curved ? ", curved" : ""));
-      const double scale = 1.5;
+      const int side = few_or_many(300, 600);
+      const double scale = 1.0 * side / kWidth;
       TimedMap timed(scene);
       const StMap map = st_map_of(timed, white(), {.scale = scale});
-      REQUIRE(map.width == 600);
-      REQUIRE(map.height == 600);
+      REQUIRE(map.width == side);
+      REQUIRE(map.height == side);
       const auto inverse = timed.inverse(timed.frame({}));
       REQUIRE(inverse);
       std::mt19937 random(seed);
       double worst = 0;
       int shown = 0, missing = 0, wrong = 0;
       for (int i = 0; i < few_or_many(100, 900); ++i) {
-        const int column = static_cast<int>(random() % 600), row = static_cast<int>(random() % 600);
+        const int column = static_cast<int>(random() % static_cast<unsigned>(side)),
+                  row = static_cast<int>(random() % static_cast<unsigned>(side));
         const Complex w((column + 0.5) / scale, kHeight - (row + 0.5) / scale);
         const Complex z = entry(map, column, row);
         const std::vector<Preimage> exact = inverse->inverse.at(w);
@@ -114,7 +116,8 @@ TEST_CASE("ST-map: the part that is drawn on top counts") {
 
 TEST_CASE("Unwarping a posed picture gives the picture back") {
   for (const unsigned seed : seeds_of("Unwarp", {3}))
-    for (const char* id : {"cage", "pins", "angles", "puppet", "arap"}) {
+    for (const char* id : {"pins", "angles", "arap", "cage", "puppet"}) {
+      if (id == std::string("cage") && !soaks()) break;
       const Scene scene = random_scene(method_named(id), false, seed);
       Image smooth(kWidth, kHeight);
       for (int r = 0; r < kHeight; ++r)
@@ -170,9 +173,10 @@ TEST_CASE("ST-maps and unwarped pictures can be interrupted") {
 
 TEST_CASE("Preimages of many points at once are those of each point") {
   for (const unsigned seed : seeds_of("many preimages", {1}))
-    for (const Method& method : methods())
+    for (size_t m = 0; m < methods().size(); m += static_cast<size_t>(few_or_many(2, 1)))
       for (const bool curved : {false, true}) {
         if (curved && !soaks()) continue;
+        const Method& method = methods()[m];
         const Scene scene = random_scene(method, curved, seed);
         TimedMap timed(scene);
         const auto inverse = timed.inverse(timed.frame({}));

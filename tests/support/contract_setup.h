@@ -3,6 +3,7 @@
 
 #include "core/maps/method.h"
 #include "core/mesh/mesher.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 namespace holomorph {
@@ -19,6 +20,16 @@ inline Complex bend(Complex z) {
 /// The edges of the rest cage: straight, straight with a higher degree, or curved. `holes` is a
 /// cage with straight edges and two unequal holes, one of which runs in the wrong direction.
 enum class Shape { straight, raised, curved, holes };
+
+/// The shapes to test a method with: all of them in scripts/soak, and otherwise straight edges and
+/// one of the others, which alternate from method to method.
+inline std::vector<Shape> shapes_for(const Method& method) {
+  std::vector<Shape> shapes{Shape::straight};
+  const bool is_odd = (&method - methods().data()) % 2 != 0;
+  if (method.allows_holes && (is_odd || soaks())) shapes.push_back(Shape::holes);
+  if (shapes.size() == 1 || soaks()) shapes.push_back(Shape::curved);
+  return shapes;
+}
 
 inline Cage cage_of(Shape shape) {
   const Cage straight = polygon_cage(shapes::l_shape());

@@ -194,7 +194,7 @@ TEST_CASE("Hilbert coordinates: many points at once give what each gives alone")
           cage, cage.holes.empty() ? corner_values(cage, corners) : vertex_weights(cage));
       Points points;
       const FlatCage flat = flattened(cage);
-      for (const Complex& z : domain_mesh(cage, {6000}).vertices)
+      for (const Complex& z : domain_mesh(cage, {few_or_many(2500, 6000)}).vertices)
         if (nearest_on_polygon(flat, z).distance > 1e-6) points.push_back(z);
       for (const int order : {0, 1}) {
         const MatrixXc all = coordinates.at(points, order);

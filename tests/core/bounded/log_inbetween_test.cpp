@@ -89,7 +89,7 @@ std::vector<int> inner_vertices(const Cage& cage, int vertices, size_t count,
 
 TEST_CASE("In-betweens of maps without folds do not fold, and still pins do not slide") {
   for (const unsigned seed :
-       seeds_of("certified in-betweens", {1, 2, 3640247491u, 3037148u, 3070195373u, 2596997916u})) {
+       seeds_of("certified in-betweens", {3640247491u, 3037148u, 3070195373u, 2596997916u})) {
     std::mt19937 random(seed);
     int frames = 0, held_frames = 0;
     for (const Cage& cage : {bar(), frame()}) {

@@ -466,7 +466,7 @@ TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary i
       }
       const Inside inside(cage);
       const Polygon fine = outline_of(cage, 4000);
-      for (int i = 0; i < few_or_many(400, 3000); ++i) {
+      for (int i = 0; i < few_or_many(150, 3000); ++i) {
         Complex z = Complex(200, 200) + 130.0 * random_complex(random);
         if (i % 3 == 0) {  // next to the boundary
           const Index e = static_cast<Index>(random() % static_cast<unsigned>(cage.size()));

@@ -93,7 +93,7 @@ Points near_points(const Points& polygon, std::mt19937& random) {
     }
   }
   std::ranges::shuffle(points, random);
-  points.resize(std::min<size_t>(points.size(), 200));
+  points.resize(std::min(points.size(), static_cast<size_t>(few_or_many(60, 200))));
   return points;
 }
 

@@ -28,7 +28,7 @@ Pose random_pose(const Puppet& puppet, double reach, std::mt19937& random) {
 }  // namespace
 
 TEST_CASE("Puppet: limits hold everywhere, in drafts and in final answers, at rest and far away") {
-  for (const unsigned seed : seeds_of("puppet_limits_test", {1, 2, 3, 4, 5, 6})) {
+  for (const unsigned seed : seeds_of("puppet_limits_test", {1, 2, 3})) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     Puppet puppet = random_puppet(random);

@@ -45,8 +45,7 @@ Points points_around(const Mesh& mesh, int count, std::mt19937& random) {
 TEST_CASE("Continued maps: inside they are the map, and everywhere finite") {
   for (const unsigned seed : seeds_of("continued maps", {1}))
     for (const Method& method : methods())
-      for (const Shape shape : {Shape::straight, Shape::curved, Shape::holes}) {
-        if (shape == Shape::holes && !method.allows_holes) continue;
+      for (const Shape shape : shapes_for(method)) {
         INFO(method.id << ", seed " << seed << ", shape " << static_cast<int>(shape));
         std::mt19937 random(seed);
         const Continued c(method, shape, 10, random);
@@ -69,8 +68,7 @@ TEST_CASE("Continued maps: inside they are the map, and everywhere finite") {
 TEST_CASE("Continued maps are continuous at the boundary") {
   for (const unsigned seed : seeds_of("continued maps at the boundary", {1}))
     for (const Method& method : methods())
-      for (const Shape shape : {Shape::straight, Shape::curved, Shape::holes}) {
-        if (shape == Shape::holes && !method.allows_holes) continue;
+      for (const Shape shape : shapes_for(method)) {
         INFO(method.id << ", seed " << seed << ", shape " << static_cast<int>(shape));
         std::mt19937 random(seed);
         const Continued c(method, shape, 10, random);

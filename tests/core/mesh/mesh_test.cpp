@@ -149,7 +149,7 @@ TEST_CASE("The mesh of a curved cage follows its curves, with positive triangles
       REQUIRE(mesh.cage_vertices.size() == static_cast<size_t>(cage.size()));
       for (Index e = 0; e < cage.size(); ++e)
         CHECK(mesh.vertices[mesh.cage_vertices[e]] == cage.vertex(e));
-      const Polygon outline = outline_of(cage, 2000);
+      const Polygon outline = outline_of(cage, 500);
       std::set<int> boundary(mesh.boundary.begin(), mesh.boundary.end());
       for (size_t v = 0; v < mesh.vertices.size(); ++v) {
         if (v % 5 == 0) CHECK(contains(cage, mesh.vertices[v]));

@@ -93,20 +93,31 @@ Rest rest_for(const Cage& cage, Precision precision, int vertices) {
 double largest_seam(const Mesh& mesh, const VectorXc& f, const PointMap& map) {
   const std::vector<char> outer = boundary_marks(mesh);
   const GaussRule& rule = gauss_rule(8);
-  double worst = 0;
+  std::vector<std::pair<int, int>> edges;
   for (const Triangle& t : mesh.triangles)
-    for (size_t k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      if (a > b || outer[static_cast<size_t>(a)] || outer[static_cast<size_t>(b)]) continue;
-      const Complex from = mesh.vertices[static_cast<size_t>(a)],
-                    by = mesh.vertices[static_cast<size_t>(b)] - from;
-      Complex sum = f[a] - f[b];
-      for (size_t g = 0; g < rule.nodes.size(); ++g) {
-        const auto at = map.at(from + rule.nodes[g] * by);
-        sum += rule.weights[g] * (at.fz * by + at.fzbar * std::conj(by));
-      }
-      worst = std::max(worst, std::abs(sum));
+    for (size_t k = 0; k < 3; ++k)
+      if (const int a = t[k], b = t[(k + 1) % 3];
+          a < b && !outer[static_cast<size_t>(a)] && !outer[static_cast<size_t>(b)])
+        edges.emplace_back(a, b);
+  const auto along = [&](const auto& edge) {
+    return mesh.vertices[static_cast<size_t>(edge.second)] -
+           mesh.vertices[static_cast<size_t>(edge.first)];
+  };
+  Points nodes;
+  for (const auto& edge : edges)
+    for (const double at : rule.nodes)
+      nodes.push_back(mesh.vertices[static_cast<size_t>(edge.first)] + at * along(edge));
+  const std::vector<PointMap::Value> values = map.values_at(nodes);
+  double worst = 0;
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const Complex by = along(edges[e]);
+    Complex sum = f[edges[e].first] - f[edges[e].second];
+    for (size_t g = 0; g < rule.nodes.size(); ++g) {
+      const PointMap::Value& at = values[e * rule.nodes.size() + g];
+      sum += rule.weights[g] * (at.fz * by + at.fzbar * std::conj(by));
     }
+    worst = std::max(worst, std::abs(sum));
+  }
   return worst;
 }
 
@@ -339,9 +350,10 @@ TEST_CASE("Holes: methods that do not allow them say so") {
 TEST_CASE("Holes: puppets with random holes and pins are certified and closed") {
   for (const unsigned seed : seeds_of("puppets with holes", {7})) {
     std::mt19937 random(seed);
-    for (int k = 0; k < 3; ++k) {
+    for (const double reach : {0.1, 2.0, 0.4}) {
+      if (reach == 0.4 && !soaks()) break;
       Rest rest = rest_for(random_domain(random), Precision::full, 500);
-      const double size = box_of(rest.samples).diagonal(), reach = k == 0 ? 0.1 : k == 1 ? 0.4 : 2;
+      const double size = box_of(rest.samples).diagonal();
       Pose pose{rest.cage, {}};
       std::uniform_int_distribution<size_t> any(0, rest.samples.size() - 1);
       for (int p = 0; p < 5; ++p) {

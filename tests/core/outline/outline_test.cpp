@@ -503,7 +503,10 @@ TEST_CASE("Outline: between shapes with corners, pins reach their targets and no
         CHECK(match.hausdorff < 0.025 * size);  // a corner is rounded
       }
   }
-  // Targets beyond a side, and beyond corners.
+}
+
+TEST_CASE("Outline: pins stay inside if their targets are beyond a side or a corner") {
+  const Points square{{0, 0}, {300, 0}, {300, 300}, {0, 300}};
   OutlineFit fit(polygon_cage(square), square, {{150, 150}}, {});
   for (const Complex outside : {Complex(450, 150), Complex(400, 400), Complex(-90, -20)}) {
     fit.solve({outside});
@@ -513,7 +516,10 @@ TEST_CASE("Outline: between shapes with corners, pins reach their targets and no
     CHECK(match.pins_missed < 0.01 * Polyline(square, true).diagonal());
     CHECK(match.hausdorff < 0.04 * Polyline(square, true).diagonal());
   }
-  // A target beyond a tip that is narrower than the gaps between the directions tried around it.
+}
+
+// The tip is narrower than the gaps between the directions that are tried around it.
+TEST_CASE("Outline: a pin stays inside if its target is beyond a narrow tip") {
   const Points tip{{0, 0}, {300, -50}, {300, 50}};
   for (const double turn : {0.1, 0.3, 0.9, 2.0}) {
     const Complex direction = std::polar(1.0, turn);
