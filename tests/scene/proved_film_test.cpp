@@ -50,11 +50,13 @@ Deformation film_of(const std::string& name, const std::string& method, std::mt1
 TEST_CASE("Films of the samples are proved frame by frame") {
   for (const unsigned seed : seeds_of("proved films", {1})) {
     std::mt19937 random(seed);
-    for (const auto& [name, method] : {std::pair("gecko", "puppet"),
-                                       {"octopus", "puppet"},
-                                       {"sunflower", "puppet"},
-                                       {"gecko", "bounded"},
-                                       {"octopus", "bounded"}}) {
+    const std::vector<std::pair<const char*, const char*>> all{{"gecko", "puppet"},
+                                                               {"octopus", "bounded"},
+                                                               {"octopus", "puppet"},
+                                                               {"gecko", "bounded"},
+                                                               {"sunflower", "puppet"}};
+    for (size_t i = 0; i < (soaks() ? all.size() : 2); ++i) {
+      const auto& [name, method] = all[i];
       const Deformation film = film_of(name, method, random);
       TimedMap timed(film);
       const Mesh& mesh = timed.mesh();
@@ -64,6 +66,9 @@ TEST_CASE("Films of the samples are proved frame by frame") {
         keys.push_back(timed.on_mesh(timed.frame(key.time)));
       for (const SampledMap& key : keys) REQUIRE(key.status == SampledMap::Status::certified);
       const Inbetween triangles(std::make_shared<const Mesh>(mesh));
+      std::vector<Inbetween::Shape> shapes;
+      for (const SampledMap& key : keys)
+        shapes.push_back(triangles.shape_of(key.f, shapes.empty() ? nullptr : &shapes.back()));
       const auto image = [&](size_t pin, const VectorXc& f) {
         return locate_near(mesh, film.pins[pin].rest).in(mesh, as_span(f));
       };
@@ -83,9 +88,8 @@ TEST_CASE("Films of the samples are proved frame by frame") {
                              std::min(keys[k].extremes->smallest, keys[k + 1].extremes->smallest) /
                                  map.extremes->smallest);
         }
-        const auto a = triangles.shape_of(keys[k].f), b = triangles.shape_of(keys[k + 1].f, &a);
         VectorXc before;
-        triangles.blend({a, b}, u, before);
+        triangles.blend({shapes[k], shapes[k + 1]}, u, before);
         flipped_before += flipped_triangles(mesh, before);
         for (size_t pin = 0; pin < 2; ++pin) {
           if (std::abs(image(pin, keys[k].f) - image(pin, keys[k + 1].f)) > 1e-4 * size) continue;
