@@ -71,12 +71,13 @@ std::vector<Depth> depths_of(const Deformation& deformation) {
 
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
                                        const Deformation& deformation) {
-  const bool is_puppet = deformation.method == usual_method(MethodUse::puppet).id;
+  const EqualHeights equals = method_named(deformation.method).limbs_in_front
+                                  ? EqualHeights::outward
+                                  : EqualHeights::as_in_mesh;
   const std::vector<Depth> depths = depths_of(deformation);
-  if (depths.empty() && !is_puppet) return mesh;
+  if (depths.empty() && equals == EqualHeights::as_in_mesh) return mesh;
   auto drawn = std::make_shared<Mesh>(*mesh);
-  drawn->triangles =
-      draw_order(*mesh, depths, is_puppet ? EqualHeights::outward : EqualHeights::as_in_mesh);
+  drawn->triangles = draw_order(*mesh, depths, equals);
   return drawn;
 }
 

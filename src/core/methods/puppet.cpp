@@ -322,6 +322,8 @@ Method puppet_method() {
       .uses_stiffness = true,
       .holds_disks = true,
       .pins_replace_cage = true,
+      .limbs_in_front = true,
+      .comparable = true,
       .iterates = true,
       .reproduces = Method::Motions::rigid,
       .needs_mesh = true,

@@ -28,8 +28,7 @@ inline bool has_cage(const Workspace& w) {
 /// Whether there are other methods to compare the deformation's method with.
 inline bool can_be_compared(const Deformation& deformation) {
   const Method& method = method_named(deformation.method);
-  return method.follows_others ||
-         (method.id == usual_method(MethodUse::puppet).id && !deformation.pins.empty());
+  return method.follows_others || (method.comparable && !deformation.pins.empty());
 }
 inline bool has_surface(const Workspace& w) {
   return w.shown.deformation().surface.has_value();

@@ -34,8 +34,7 @@ bool prevents_folds(const Deformation& deformation) {
 }
 
 bool can_prevent_folds(const Method& method) {
-  return method.id != usual_method(MethodUse::puppet).id &&
-         method.id != usual_method(MethodUse::corners).id && reference_to(method.id).has_value();
+  return !method.uses_corners && reference_to(method.id).has_value();
 }
 
 bool has_method_for(const Deformation& deformation, MethodUse use) {
