@@ -54,9 +54,9 @@ std::shared_ptr<const Inbetween> inbetween_of(PreparedMap& prepared);
 
 /// The depths of the pins; empty if they are all equal, or if the method does not use pins.
 std::vector<Depth> depths_of(const Deformation& deformation);
-/// The mesh of a deformation with its triangles in drawing order, from the lowest to the highest. A
-/// puppet's limbs lie in front of its body; other methods draw equal depths in the mesh's order.
-/// That order is kept so that scenes of earlier releases look as they did.
+/// The mesh of a deformation with its triangles in drawing order, from the lowest to the highest.
+/// Where depths are equal, Method::limbs_in_front decides. Its value for each method is kept, so
+/// that scenes of earlier releases look as they did.
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
                                        const Deformation& deformation);
 

@@ -53,7 +53,8 @@ struct Method {
   bool holds_disks = false;        ///< the frame of a pin acts on a disk, not on its center alone
   bool pins_replace_cage = false;  ///< while there are pins, the posed cage has no effect
   bool limbs_in_front = false;     ///< limbs are drawn in front of the body: EqualHeights::outward
-  bool comparable = false;         ///< core/compared has methods with its energy and its pins
+  bool never_folds = false;        ///< needs no other method to prevent folds
+  bool comparable = false;         ///< core/compared can minimize its energy with the same pins
   bool iterates = false;           ///< too slow for every frame of a drag: solve it on a worker
   bool harmonic = true;            ///< f_z and conj(f_zbar) are holomorphic
   /// Motions of the plane: if all handles move by one of these, the map is that motion.

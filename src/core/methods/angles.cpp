@@ -319,6 +319,7 @@ Method angles_method() {
           false)},
       .uses_pins = true,
       .uses_corners = true,
+      .never_folds = true,
       .iterates = true,
       .needs_mesh = true,
       .allows_holes = false,

@@ -213,17 +213,14 @@ class BoundedDeformer final : public Deformer {
     found.first = std::move(values.first);
     // Next to the boundary, the quadrature along the tree is off by a thousandth of a pixel or
     // more, which may invert small triangles.
-    if (draft) {
-      found.f = without_gaps(found, std::move(values.f));
-      found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
-    }
-    if (!draft || found.flipped_triangles > 0) {
+    if (draft) found.f = without_gaps(found, std::move(values.f));
+    if (!draft || flipped_triangles(*rest_.mesh, found.f) > 0)
       found.f = without_gaps(found, on_mesh_->integrated(found.solution.map));
-      found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
-    }
     align(pose, found);
+    found.flipped_triangles = flipped_triangles(*rest_.mesh, found.f);
   }
 
+  /// f without the jumps that integration around holes leaves.
   VectorXc without_gaps(const Found& found, VectorXc f) const {
     if (closing_->has_holes())
       f -= closing_->loops().correction(on_mesh_->tree(), closing_->gaps(found.solution.map));

@@ -323,6 +323,7 @@ Method puppet_method() {
       .holds_disks = true,
       .pins_replace_cage = true,
       .limbs_in_front = true,
+      .never_folds = true,
       .comparable = true,
       .iterates = true,
       .reproduces = Method::Motions::rigid,

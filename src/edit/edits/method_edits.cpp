@@ -34,7 +34,7 @@ bool prevents_folds(const Deformation& deformation) {
 }
 
 bool can_prevent_folds(const Method& method) {
-  return !method.uses_corners && reference_to(method.id).has_value();
+  return !method.never_folds && reference_to(method.id).has_value();
 }
 
 bool has_method_for(const Deformation& deformation, MethodUse use) {
