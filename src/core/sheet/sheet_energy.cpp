@@ -1,0 +1,176 @@
+// In a triangle, let f_z = |f_z| e^(i alpha) and f_zbar = |f_zbar| e^(i beta). The stretches are
+// |f_z| + |f_zbar| and |f_z| - |f_zbar|. The four eigenvectors of the membrane's Hessian are
+// changes of the two stretches, of alpha (twist) and of beta (flip). Only the twist may have a
+// negative eigenvalue.
+#include "core/sheet/sheet_energy.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+double membrane_of(const SheetStrain& at) {
+  const double large = at.larger(), small = at.smaller();
+  if (!(small > 0)) return kInfinite;
+  return 0.5 * (large * large + small * small + 1 / (large * large) + 1 / (small * small));
+}
+
+/// A complex number of size 1 in the direction of z; 1 for 0.
+Complex direction_of(Complex z) {
+  const double size = std::abs(z);
+  return size > 0 ? z / size : Complex(1);
+}
+
+}  // namespace
+
+SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
+                         const VectorXd& bending)
+    : mesh_(std::move(shared)), weights_(std::move(stiffness)) {
+  const Mesh& mesh = *mesh_;
+  const Index triangles = static_cast<Index>(mesh.triangles.size()),
+              vertices = static_cast<Index>(mesh.vertices.size());
+  check(weights_.size() == triangles, "sheet: a stiffness for each triangle");
+  check(bending.size() == vertices, "sheet: a bending length for each vertex");
+  const std::vector<char> outer = boundary_marks(mesh);
+  VectorXd masses = VectorXd::Zero(vertices);
+  double area = 0;
+  using Entry = Eigen::Triplet<double>;
+  std::vector<Entry> entries;
+  for (Index i = 0; i < triangles; ++i) {
+    const Triangle& t = mesh.triangles[static_cast<size_t>(i)];
+    const double own = area_of(mesh, t);
+    area += own;
+    weights_[i] *= own;
+    Gradients& gradients = gradients_.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      gradients[static_cast<size_t>(k)] = -kI * std::conj(opposite_side(mesh, t, k)) / (4 * own);
+      masses[t[k]] += own / 3;
+    }
+    // The weak form: -area (d_a phi_v) (d_b phi_w), symmetric in a and b.
+    for (size_t k = 0; k < 3; ++k) {
+      const Complex g = 2.0 * std::conj(gradients[k]);
+      if (outer[static_cast<size_t>(t[k])]) continue;
+      for (size_t m = 0; m < 3; ++m) {
+        const Complex h = 2.0 * std::conj(gradients[m]);
+        entries.emplace_back(3 * t[k], t[m], -own * g.real() * h.real());
+        entries.emplace_back(3 * t[k] + 1, t[m],
+                             -0.5 * own * (g.real() * h.imag() + g.imag() * h.real()));
+        entries.emplace_back(3 * t[k] + 2, t[m], -own * g.imag() * h.imag());
+      }
+    }
+  }
+  weights_ /= area;
+  second_.resize(3 * vertices, vertices);
+  second_.setFromTriplets(entries.begin(), entries.end());
+  VectorXd inverse_masses(3 * vertices), squares(3 * vertices);
+  for (Index v = 0; v < vertices; ++v)
+    for (int k = 0; k < 3; ++k) {  // f_xy counts twice in |H|^2
+      inverse_masses[3 * v + k] = 1 / masses[v];
+      squares[3 * v + k] = (k == 1 ? 2 : 1) * masses[v] * bending[v] * bending[v] / area;
+    }
+  second_ = inverse_masses.asDiagonal() * second_;
+  bending_ = second_.transpose() * squares.asDiagonal() * second_;
+}
+
+SheetStrain SheetEnergy::strain(size_t triangle, const VectorXc& f) const {
+  SheetStrain at{0, 0};
+  for (size_t k = 0; k < 3; ++k) {
+    const Complex value = f[mesh_->triangles[triangle][k]], weight = gradients_[triangle][k];
+    at.fz += weight * value;
+    at.fzbar += std::conj(weight) * value;
+  }
+  return at;
+}
+
+double SheetEnergy::membrane(const VectorXc& f) const {
+  double sum = 0;
+  for (size_t i = 0; i < gradients_.size(); ++i)
+    sum += weights_[static_cast<Index>(i)] * membrane_of(strain(i, f));
+  return sum;
+}
+
+double SheetEnergy::bending(const VectorXc& f) const {
+  return 0.5 * (f.real().dot(bending_ * f.real()) + f.imag().dot(bending_ * f.imag()));
+}
+
+std::array<Complex, 3> SheetEnergy::hessian_at(int vertex, const VectorXc& f) const {
+  std::array<Complex, 3> second{};
+  for (int k = 0; k < 3; ++k)
+    for (decltype(second_)::InnerIterator at(second_, 3 * vertex + k); at; ++at)
+      second[static_cast<size_t>(k)] += at.value() * f[at.col()];
+  return second;
+}
+
+/// How the unknowns of a triangle change |f_z| and |f_zbar|, and the angles alpha and beta, times
+/// these sizes.
+struct SheetEnergy::Changes {
+  SheetGradient grows, twists, shears, flips;
+};
+
+SheetEnergy::Changes SheetEnergy::changes_of(size_t triangle, const SheetStrain& at) const {
+  const Complex unturned = std::conj(direction_of(at.fz)),
+                unflipped = std::conj(direction_of(at.fzbar));
+  Changes changes;
+  for (size_t k = 0; k < 3; ++k) {
+    const Complex a = unturned * gradients_[triangle][k],
+                  b = unflipped * std::conj(gradients_[triangle][k]);
+    const Index x = static_cast<Index>(2 * k);
+    changes.grows.segment<2>(x) << a.real(), -a.imag();
+    changes.twists.segment<2>(x) << a.imag(), a.real();
+    changes.shears.segment<2>(x) << b.real(), -b.imag();
+    changes.flips.segment<2>(x) << b.imag(), b.real();
+  }
+  return changes;
+}
+
+SheetGradient SheetEnergy::gradient_of(size_t triangle, const VectorXc& f) const {
+  const SheetStrain at = strain(triangle, f);
+  const Changes by = changes_of(triangle, at);
+  const auto slope = [](double stretch) { return stretch - 1 / (stretch * stretch * stretch); };
+  const double large = slope(at.larger()), small = slope(at.smaller());
+  return weights_[static_cast<Index>(triangle)] *
+         ((large + small) * by.grows + (large - small) * by.shears);
+}
+
+SheetHessian SheetEnergy::hessian_of(size_t triangle, const VectorXc& f, bool projected) const {
+  const SheetStrain at = strain(triangle, f);
+  const Changes by = changes_of(triangle, at);
+  const double large = at.larger(), small = at.smaller(), squares = large * large + small * small,
+               product = large * small, cube = product * product * product;
+  const auto curvature = [](double stretch) { return 1 + 3 / std::pow(stretch, 4); };
+  const auto times_square = [](double factor, const SheetGradient& row) {
+    return SheetHessian(factor * row * row.transpose());
+  };
+  const double twist = 1 - (squares - product) / cube, flip = 1 + (squares + product) / cube;
+  return weights_[static_cast<Index>(triangle)] *
+         (times_square(curvature(large), by.grows + by.shears) +
+          times_square(curvature(small), by.grows - by.shears) +
+          times_square(2 * (projected ? std::max(0.0, twist) : twist), by.twists) +
+          times_square(2 * flip, by.flips));
+}
+
+double SheetEnergy::first_flip(const VectorXc& f, const VectorXc& d) const {
+  double first = kInfinite;
+  for (size_t i = 0; i < gradients_.size(); ++i) {
+    const SheetStrain at = strain(i, f), by = strain(i, d);
+    // The determinant is c + 2 b t + a t^2.
+    const double c = std::norm(at.fz) - std::norm(at.fzbar),
+                 b = dot(at.fz, by.fz) - dot(at.fzbar, by.fzbar),
+                 a = std::norm(by.fz) - std::norm(by.fzbar), inside = b * b - a * c;
+    if (inside < 0) continue;
+    // The smallest positive root, in a form without cancellation.
+    const double root = std::sqrt(inside);
+    if (b < 0)
+      first = std::min(first, c / (-b + root));
+    else if (a < 0)
+      first = std::min(first, (b + root) / -a);
+  }
+  return first;
+}
+
+}  // namespace holomorph

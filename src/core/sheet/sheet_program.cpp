@@ -1,0 +1,167 @@
+// Newton's method on x and y of all vertices, in turn. The matrix has the entries of bending, which
+// joins vertices with a common neighbor, whatever the positions are.
+#include "core/sheet/sheet_program.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace holomorph {
+namespace {
+
+/// Keeps the matrix definite where nothing resists a motion: rotations about a single pin.
+constexpr double kLeastStiffness = 1e-10;
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// The position of an entry of the lower triangle in the values of the matrix.
+int slot_of(const Matrix& matrix, Index i, Index j) {
+  const int row = static_cast<int>(std::max(i, j)), column = static_cast<int>(std::min(i, j));
+  const int *first = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column],
+            *end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column + 1];
+  const int* found = std::lower_bound(first, end, row);
+  check(found != end && *found == row, "sheet: the matrix has all entries of its triangles");
+  return static_cast<int>(found - matrix.innerIndexPtr());
+}
+
+Complex image_of(const SheetRow& row, const VectorXc& f) {
+  Complex sum = 0;
+  for (const auto& [v, weight] : row.terms) sum += weight * f[v];
+  return sum;
+}
+
+}  // namespace
+
+struct SheetProgram::Factor {
+  Matrix matrix;
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver;
+};
+
+SheetProgram::SheetProgram(std::shared_ptr<const SheetEnergy> energy, SheetHolds holds)
+    : energy_(std::move(energy)), holds_(std::move(holds)), factor_(std::make_unique<Factor>()) {
+  const Mesh& mesh = energy_->mesh();
+  const Index unknowns = 2 * static_cast<Index>(mesh.vertices.size());
+  check(holds_.fixed.empty() || holds_.fixed.size() == mesh.vertices.size(),
+        "sheet: a mark for each vertex");
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](Index i, Index j, double value) {
+    if (i >= j && !is_fixed(i) && !is_fixed(j)) entries.emplace_back(i, j, value);
+  };
+  for (Index i = 0; i < unknowns; ++i) entries.emplace_back(i, i, is_fixed(i) ? 1.0 : 0.0);
+  const Matrix& bending = energy_->bending_matrix();
+  for (Index column = 0; column < bending.outerSize(); ++column)
+    for (Matrix::InnerIterator at(bending, column); at; ++at)
+      for (Index k = 0; k < 2; ++k) add(2 * at.row() + k, 2 * column + k, at.value());
+  for (const SheetRow& row : holds_.rows)
+    for (const auto& [v, a] : row.terms)
+      for (const auto& [w, b] : row.terms)
+        for (Index k = 0; k < 2; ++k) add(2 * v + k, 2 * w + k, 2 * row.weight * a * b);
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t)
+      for (const int w : t)
+        for (Index k = 0; k < 4; ++k) add(2 * v + k / 2, 2 * w + k % 2, 0);
+  constant_.resize(unknowns, unknowns);
+  constant_.setFromTriplets(entries.begin(), entries.end());
+  for (const Triangle& t : mesh.triangles) {
+    std::array<int, 21>& slots = slots_.emplace_back();
+    size_t at = 0;
+    for (size_t i = 0; i < 6; ++i)
+      for (size_t j = 0; j <= i; ++j) {
+        const Index row = 2 * t[i / 2] + static_cast<Index>(i % 2),
+                    column = 2 * t[j / 2] + static_cast<Index>(j % 2);
+        slots[at++] = is_fixed(row) || is_fixed(column) ? -1 : slot_of(constant_, row, column);
+      }
+  }
+  factor_->matrix = constant_;
+  factor_->solver.analyzePattern(constant_);
+}
+
+SheetProgram::~SheetProgram() = default;
+
+double SheetProgram::value(const VectorXc& f, const Points& targets) const {
+  double sum = energy_->value(f);
+  for (size_t r = 0; r < holds_.rows.size(); ++r)
+    sum += holds_.rows[r].weight * std::norm(image_of(holds_.rows[r], f) - targets[r]);
+  return sum;
+}
+
+VectorXd SheetProgram::gradient(const VectorXc& f, const Points& targets) const {
+  const VectorXd x = energy_->bending_matrix() * f.real(), y = energy_->bending_matrix() * f.imag();
+  VectorXd gradient(2 * f.size());
+  for (Index v = 0; v < f.size(); ++v) gradient.segment<2>(2 * v) << x[v], y[v];
+  for (size_t i = 0; i < slots_.size(); ++i) {
+    const SheetGradient own = energy_->gradient_of(i, f);
+    const Triangle& t = energy_->mesh().triangles[i];
+    for (int k = 0; k < 3; ++k) gradient.segment<2>(2 * t[k]) += own.segment<2>(2 * k);
+  }
+  for (size_t r = 0; r < holds_.rows.size(); ++r) {
+    const SheetRow& row = holds_.rows[r];
+    const Complex off = 2 * row.weight * (image_of(row, f) - targets[r]);
+    for (const auto& [v, weight] : row.terms)
+      gradient.segment<2>(2 * v) += weight * Eigen::Vector2d(off.real(), off.imag());
+  }
+  for (Index i = 0; i < gradient.size(); ++i)
+    if (is_fixed(i)) gradient[i] = 0;
+  return gradient;
+}
+
+/// Factorizes the Hessian at f. Returns whether it is positive definite.
+bool SheetProgram::factorize(const VectorXc& f, bool projected) {
+  Matrix& matrix = factor_->matrix;
+  double* values = matrix.valuePtr();
+  std::copy_n(constant_.valuePtr(), constant_.nonZeros(), values);
+  for (size_t i = 0; i < slots_.size(); ++i) {
+    const SheetHessian own = energy_->hessian_of(i, f, projected);
+    size_t at = 0;
+    for (Index k = 0; k < 6; ++k)
+      for (Index j = 0; j <= k; ++j, ++at)
+        if (const int slot = slots_[i][at]; slot >= 0) values[slot] += own(k, j);
+  }
+  double largest = 0;  // of the diagonal, whose entries are the first of their columns
+  for (Index i = 0; i < matrix.cols(); ++i)
+    largest = std::max(largest, values[matrix.outerIndexPtr()[i]]);
+  for (Index i = 0; i < matrix.cols(); ++i)
+    values[matrix.outerIndexPtr()[i]] += kLeastStiffness * largest;
+  factor_->solver.factorize(matrix);
+  return factor_->solver.info() == Eigen::Success && factor_->solver.vectorD().minCoeff() > 0;
+}
+
+SheetProgram::Step SheetProgram::step(const Points& targets, VectorXc& f, bool projected) {
+  check(targets.size() == holds_.rows.size(), "sheet: a target for each row");
+  const double before = value(f, targets);
+  if ((projected || !factorize(f, false)) && !factorize(f, true)) return {before, 0, 0};
+  const VectorXd slopes = gradient(f, targets), down = factor_->solver.solve(-slopes);
+  VectorXc d(f.size());
+  for (Index v = 0; v < d.size(); ++v) d[v] = {down[2 * v], down[2 * v + 1]};
+  constexpr double kFlipShare = 0.9, kArmijo = 1e-4, kShortest = 1e-10;
+  const double slope = slopes.dot(down);
+  Step step{before, -0.5 * slope, 0};
+  for (double length = std::min(1.0, kFlipShare * energy_->first_flip(f, d)); length > kShortest;
+       length *= 0.5) {
+    VectorXc there = f + length * d;
+    const double after = value(there, targets);
+    if (!(after <= before + kArmijo * length * slope)) continue;
+    f = std::move(there);
+    step.value = after;
+    step.length = length;
+    break;
+  }
+  return step;
+}
+
+SheetProgram::Step SheetProgram::minimize(const Points& targets, VectorXc& f, int most,
+                                          double tolerance) {
+  constexpr double kNear = 1e-2;  // of the value: a decrement from which on true Hessians are tried
+  Step last;
+  bool is_near = false;
+  for (int i = 0; i < most; ++i) {
+    last = step(targets, f, !is_near);
+    is_near = last.length > 0.5 && last.decrement <= kNear * last.value;
+    if (last.length == 0 || last.decrement <= tolerance * last.value) break;
+  }
+  return last;
+}
+
+}  // namespace holomorph

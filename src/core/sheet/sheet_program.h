@@ -1,0 +1,68 @@
+// Finds the map of least energy of an elastic sheet whose handles pull at it.
+#pragma once
+
+#include "core/sheet/sheet_energy.h"
+
+namespace holomorph {
+
+/// A point that a handle pulls at: a sum of vertices with real weights, whose image
+/// `weight` |sum - target|^2 pulls to its target. `weight` is per unit of the plane squared.
+struct SheetRow {
+  std::vector<std::pair<int, double>> terms;
+  double weight = 0;
+};
+
+/// What holds a sheet.
+struct SheetHolds {
+  std::vector<SheetRow> rows;
+  /// For each vertex, whether its x and its y stay. Empty: none do.
+  std::vector<std::array<bool, 2>> fixed;
+};
+
+/// Minimizes the energy plus the pull of the rows. Holds the symbolic factorization of a mesh and
+/// the vertices that its rows join, so that a step only has numbers to compute.
+class SheetProgram {
+ public:
+  /// Cost: a symbolic sparse factorization.
+  SheetProgram(std::shared_ptr<const SheetEnergy> energy, SheetHolds holds);
+  ~SheetProgram();
+
+  /// The energy, with the pull of rows with these targets. Infinite if a triangle is flipped.
+  double value(const VectorXc& f, const Points& targets) const;
+  /// Its derivatives in x and y of each vertex, and 0 where these are fixed.
+  VectorXd gradient(const VectorXc& f, const Points& targets) const;
+
+  struct Step {
+    double value = 0;      ///< after the step
+    double decrement = 0;  ///< of the value, that the quadratic model expected of a full step
+    double length = 0;     ///< the part of the Newton step that was taken; 0: none lowers the value
+  };
+  /// A Newton step from f, which must not have a flipped triangle, and does not have one
+  /// afterwards: at most 0.9 of the way to the first flip, and halved until the value falls
+  /// (Armijo). With `projected`, the Hessians of triangles are made semidefinite, which is faster
+  /// far from the minimum. Without it, Newton's method converges quadratically; where the matrix is
+  /// not definite, the step is as with it. Cost: one or two sparse factorizations.
+  Step step(const Points& targets, VectorXc& f, bool projected);
+  /// Steps until the decrement is at most `tolerance` times the value, or at most `most` times.
+  Step minimize(const Points& targets, VectorXc& f, int most, double tolerance = 1e-10);
+
+  const SheetEnergy& energy() const { return *energy_; }
+
+ private:
+  struct Factor;
+  bool factorize(const VectorXc& f, bool projected);
+  bool is_fixed(Index unknown) const {
+    return !holds_.fixed.empty() &&
+           holds_.fixed[static_cast<size_t>(unknown / 2)][static_cast<size_t>(unknown % 2)];
+  }
+
+  std::shared_ptr<const SheetEnergy> energy_;
+  SheetHolds holds_;
+  Eigen::SparseMatrix<double> constant_;  ///< of bending and rows; the lower triangle
+  /// For each triangle, where the lower triangle of its 6 x 6 Hessian goes in the values of the
+  /// matrix; -1 for fixed unknowns.
+  std::vector<std::array<int, 21>> slots_;
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace holomorph
