@@ -415,7 +415,7 @@ class Packaging(Folder):
                                    len(node.args.defaults), sum(each is not None for each in node.args.kw_defaults)))
                     elif isinstance(node, ast.ClassDef):
                         found.add((node.name,))
-            return found - {("Error",)}  # which is an exception, and a class only for some versions
+            return found - {("Error",), ("InvalidInput",)}  # exceptions, which only some versions take for classes
 
         subprocess.run(["stubgen", "-p", "holomorph._core", "-o", self.path("stubs"), "-q"], check=True,
                        env={**os.environ, "PYTHONPATH": PACKAGE}, cwd=self.folder.name, stdout=subprocess.DEVNULL)
