@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace holomorph {
 namespace {
@@ -136,6 +137,32 @@ InThird third_at(const std::array<double, 3>& weights) {
 }
 
 }  // namespace
+
+std::vector<std::pair<int, double>> smooth_row(const Mesh& mesh, const VertexGradients& gradients,
+                                               const Location& location) {
+  const Triangle& t = mesh.triangles[static_cast<size_t>(location.triangle)];
+  const auto [third, u, v, w] = third_at(location.weights);
+  std::array<Corner, 3> corners{};
+  for (size_t k = 0; k < 3; ++k) corners[k].z = mesh.vertices[static_cast<size_t>(t[k])];
+  const auto value = [&] { return cubics_of(corners)[third].at(u, v, w); };
+  std::map<int, double> row;
+  for (size_t k = 0; k < 3; ++k) {
+    Corner& corner = corners[k];
+    corner.f = 1;
+    row[t[k]] += value().real();
+    corner.f = 0;
+    // The value is linear in f_x and f_y, with real weights.
+    corner.fz = 0.5, corner.fzbar = 0.5;
+    const double by_x = value().real();
+    corner.fz = -0.5 * kI, corner.fzbar = 0.5 * kI;
+    const double by_y = value().real();
+    corner.fz = corner.fzbar = 0;
+    using Weights = Eigen::SparseMatrix<Complex, Eigen::RowMajor>;
+    for (Weights::InnerIterator at(gradients.weights(), t[k]); at; ++at)
+      row[static_cast<int>(at.col())] += 2 * (by_x * at.value().real() - by_y * at.value().imag());
+  }
+  return {row.begin(), row.end()};
+}
 
 SmoothMap::SmoothMap(std::shared_ptr<const Mesh> mesh, const VectorXc& f, const VectorXc& fz,
                      const VectorXc& fzbar)

@@ -7,6 +7,7 @@
 #include "core/maps/deformer.h"
 #include "core/maps/triangle_cubic.h"
 #include "core/mesh/locator.h"
+#include "core/sheet/vertex_gradients.h"
 
 namespace holomorph {
 
@@ -19,6 +20,11 @@ struct StretchBounds {
   double smallest = 0, largest = 0;  ///< lower and upper bound
   double least_determinant = 0;      ///< lower bound
 };
+
+/// The value at a point as a sum of values at vertices with real weights, where derivatives are
+/// recovered by `gradients`.
+std::vector<std::pair<int, double>> smooth_row(const Mesh& mesh, const VertexGradients& gradients,
+                                               const Location& location);
 
 class SmoothMap final : public PointMap {
  public:

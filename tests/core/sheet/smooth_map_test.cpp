@@ -119,6 +119,28 @@ TEST_CASE("Smooth map: values and derivatives are continuous between triangles a
   }
 }
 
+TEST_CASE("Smooth map: rows of points are the map there, and sum to one") {
+  for (const unsigned seed : seeds_of("rows of smooth maps", {1, 2})) {
+    std::mt19937 random(seed);
+    const auto mesh = star_mesh(seed, 150);
+    VectorXc f(static_cast<Index>(mesh->vertices.size()));
+    for (Complex& z : f) z = random_complex(random);
+    const VertexGradients gradients(*mesh);
+    const SmoothMap map(mesh, f, gradients.fz(f), gradients.fzbar(f));
+    for (int i = 0; i < 100; ++i) {
+      const Location at = random_location(*mesh, random);
+      Complex value = 0;
+      double sum = 0;
+      for (const auto& [v, weight] : smooth_row(*mesh, gradients, at)) {
+        value += weight * f[v];
+        sum += weight;
+      }
+      CHECK(std::abs(value - map.at(at).f) < 1e-11);
+      CHECK(std::abs(sum - 1) < 1e-12);
+    }
+  }
+}
+
 TEST_CASE("Smooth map: recovered derivatives converge, and bounds enclose what is attained") {
   for (const unsigned seed : seeds_of("bounds of smooth maps", {1, 2})) {
     std::mt19937 random(seed);
