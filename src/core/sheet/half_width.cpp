@@ -5,24 +5,37 @@
 #include "core/geometry/polygon.h"
 
 namespace holomorph {
+namespace {
+
+// A disk between two centers would reach a little farther than theirs.
+constexpr double kReach = 1.05;
+
+}  // namespace
 
 HalfWidth::HalfWidth(const Mesh& mesh) {
   Polygon outline{{}, mesh.holes};
   for (const int v : mesh.boundary) outline.points.push_back(mesh.vertices[static_cast<size_t>(v)]);
+  std::vector<Disk> disks;
   const auto add = [&](Complex center) {
-    disks_.push_back({center, nearest_on_polygon(outline, center).distance});
+    disks.push_back({center, nearest_on_polygon(outline, center).distance});
   };
   for (const Complex& z : mesh.vertices) add(z);
   for (const auto& [a, b, c] : mesh.triangles)
     add((mesh.vertices[static_cast<size_t>(a)] + mesh.vertices[static_cast<size_t>(b)] +
          mesh.vertices[static_cast<size_t>(c)]) /
         3.0);
-  std::ranges::sort(disks_, std::greater{}, &Disk::radius);
+  std::ranges::sort(disks, std::greater{}, &Disk::radius);
+  // Disks that a larger one reaches around say nothing. Most of the others lie along the middle.
+  for (const Disk& disk : disks) {
+    const auto contains = [&](const Disk& larger) {
+      const double room = kReach * larger.radius - disk.radius;
+      return std::norm(disk.center - larger.center) <= room * room;
+    };
+    if (disk.radius > 0 && std::ranges::none_of(disks_, contains)) disks_.push_back(disk);
+  }
 }
 
 double HalfWidth::at(Complex z) const {
-  // A disk between two centers would reach a little farther than theirs.
-  constexpr double kReach = 1.05;
   for (const Disk& disk : disks_)
     if (std::norm(z - disk.center) <= kReach * kReach * disk.radius * disk.radius)
       return disk.radius;

@@ -14,7 +14,7 @@ class HalfWidth {
   /// be too small by up to the length of an edge. Cost: triangles times edges of the outline.
   explicit HalfWidth(const Mesh& mesh);
 
-  /// At a point inside the outline, or on it. Cost: at most linear in the number of triangles.
+  /// At a point inside the outline, or on it. Cost: linear in the number of disks that are kept.
   double at(Complex z) const;
 
  private:
@@ -22,7 +22,7 @@ class HalfWidth {
     Complex center;
     double radius = 0;
   };
-  std::vector<Disk> disks_;  ///< the largest first
+  std::vector<Disk> disks_;  ///< the largest first, without those inside larger ones
 };
 
 }  // namespace holomorph
