@@ -41,12 +41,12 @@ Complex complex_of(const Point& p) {
   return {p.x(), p.y()};
 }
 
-/// The target edge length at each point: `finest` at the boundary, growing to four times `finest`
-/// inside. Distances to the boundary come from a grid; they are exact at the nodes of the grid and
-/// interpolated in between.
+/// The target edge length at each point: by default `finest` at the boundary, growing to four times
+/// `finest` inside. Distances to the boundary come from a grid; they are exact at the nodes of the
+/// grid and interpolated in between.
 class Sizing {
  public:
-  Sizing(PolygonView polygon, double scale) : box_(box_of(polygon.points())) {
+  explicit Sizing(PolygonView polygon) : box_(box_of(polygon.points())) {
     cell_ = std::max(box_.width(), box_.height()) / kNodes;
     columns_ = static_cast<int>(box_.width() / cell_) + 2;
     rows_ = static_cast<int>(box_.height() / cell_) + 2;
@@ -56,27 +56,37 @@ class Sizing {
         distance_[static_cast<size_t>(r) * columns_ + c] = static_cast<float>(
             nearest_on_polygon(polygon, Complex(box_.left + c * cell_, box_.bottom + r * cell_))
                 .distance);
-    set_scale(scale);
   }
 
   void set_scale(double finest) { finest_ = finest; }
   double finest() const { return finest_; }
-
-  double distance(Complex z) const {
-    const double x = std::clamp((z.real() - box_.left) / cell_, 0.0, columns_ - 1.001);
-    const double y = std::clamp((z.imag() - box_.bottom) / cell_, 0.0, rows_ - 1.001);
-    const int c = static_cast<int>(x), r = static_cast<int>(y);
-    const double u = x - c, v = y - r;
-    const float* at = &distance_[static_cast<size_t>(r) * columns_ + c];
-    return (1 - v) * ((1 - u) * at[0] + u * at[1]) +
-           v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
+  /// Replaces the default by edge lengths that are given at points of the polygon, and makes them
+  /// grow by no more than kSteepest times the way. The finest is the shortest of them.
+  void set_lengths(PolygonView polygon, const std::function<double(Complex)>& length_at) {
+    lengths_.resize(distance_.size());
+    for (int r = 0; r < rows_; ++r)
+      for (int c = 0; c < columns_; ++c) {
+        const Complex z(box_.left + c * cell_, box_.bottom + r * cell_);
+        length(r, c) = static_cast<float>(
+            length_at(encloses(polygon, z) ? z : nearest_on_polygon(polygon, z).point));
+      }
+    limit_growth();
+    finest_ = *std::ranges::min_element(lengths_);
+    for (float& each : lengths_) each /= static_cast<float>(finest_);
   }
-  double size(Complex z) const { return std::min(finest_ + kGrading * distance(z), 4 * finest_); }
+
+  double distance(Complex z) const { return interpolated(distance_, z); }
+  double size(Complex z) const {
+    if (!lengths_.empty()) return finest_ * interpolated(lengths_, z);
+    return std::min(finest_ + kGrading * distance(z), 4 * finest_);
+  }
   /// The step of the lattice at z, in units of the finest edge length: the largest power of two, up
-  /// to 4, that does not exceed size(z).
+  /// to 16, that does not exceed size(z).
   int level(Complex z) const {
     const double h = size(z) / finest_;
-    return h >= 4 ? 4 : h >= 2 ? 2 : 1;
+    int level = 1;
+    while (level < 16 && 2 * level <= h) level *= 2;
+    return level;
   }
 
   /// The approximate number of vertices of the graded lattice: the integral of 1 / (area per
@@ -102,11 +112,37 @@ class Sizing {
 
  private:
   static constexpr int kNodes = 48;
-  static constexpr double kGrading = 0.08;
+  static constexpr double kGrading = 0.08, kSteepest = 0.3;
+
+  void limit_growth() {
+    const float step = static_cast<float>(kSteepest * cell_);
+    const auto limit = [&](int r, int c, int before_r, int before_c) {
+      if (before_r >= 0 && before_r < rows_ && before_c >= 0 && before_c < columns_)
+        length(r, c) = std::min(length(r, c), length(before_r, before_c) + step);
+    };
+    // Along rows and columns, two sweeps are enough.
+    for (int r = 0; r < rows_; ++r)
+      for (int c = 0; c < columns_; ++c) limit(r, c, r - 1, c), limit(r, c, r, c - 1);
+    for (int r = rows_ - 1; r >= 0; --r)
+      for (int c = columns_ - 1; c >= 0; --c) limit(r, c, r + 1, c), limit(r, c, r, c + 1);
+  }
+  float& length(int row, int column) {
+    return lengths_[static_cast<size_t>(row) * columns_ + column];
+  }
+  double interpolated(const std::vector<float>& values, Complex z) const {
+    const double x = std::clamp((z.real() - box_.left) / cell_, 0.0, columns_ - 1.001);
+    const double y = std::clamp((z.imag() - box_.bottom) / cell_, 0.0, rows_ - 1.001);
+    const int c = static_cast<int>(x), r = static_cast<int>(y);
+    const double u = x - c, v = y - r;
+    const float* at = &values[static_cast<size_t>(r) * columns_ + c];
+    return (1 - v) * ((1 - u) * at[0] + u * at[1]) +
+           v * ((1 - u) * at[columns_] + u * at[columns_ + 1]);
+  }
+
   Box box_;
   double cell_ = 1, finest_ = 1;
   int columns_ = 0, rows_ = 0;
-  std::vector<float> distance_;
+  std::vector<float> distance_, lengths_;
 };
 
 /// Refinement criteria: CGAL's angle bound, and the sizing at each triangle's center.
@@ -177,7 +213,7 @@ std::vector<Point> lattice(PolygonView polygon, const Sizing& sizing) {
         if (level > 1 &&
             (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0))
           continue;
-        if (sizing.distance(z) < 0.7 * step) continue;
+        if (sizing.distance(z) < 0.7 * level * step) continue;
         points.push_back(point_of(z));
       }
     }
@@ -313,11 +349,9 @@ void untangle(Mesh& mesh) {
   }
 }
 
-/// Throws CGAL::Failure_exception if CGAL's invariants break, and Error if the mesh does not fill
-/// the polygon.
-Mesh refined_mesh(PolygonView polygon, const MeshOptions& options) {
-  Sizing sizing(polygon, 1.0);
-  const double wanted = std::max(options.vertices, 16);
+/// The sizing that gives about as many vertices as wanted.
+Sizing sizing_for(PolygonView polygon, double wanted) {
+  Sizing sizing(polygon);
   double finest = std::sqrt(area_of(polygon) / wanted);
   // Ordinary polygons take a few steps. A needle takes more, because its finest edge length is
   // small compared with its perimeter.
@@ -328,7 +362,12 @@ Mesh refined_mesh(PolygonView polygon, const MeshOptions& options) {
     if (std::abs(ratio - 1) < 0.05 && step >= 6) break;
   }
   sizing.set_scale(finest);
+  return sizing;
+}
 
+/// Throws CGAL::Failure_exception if CGAL's invariants break, and Error if the mesh does not fill
+/// the polygon. Refinement stops at three times the wanted number of vertices.
+Mesh sized_mesh(PolygonView polygon, const Sizing& sizing, double wanted) {
   Triangulation cdt;
   std::vector<Triangulation::Vertex_handle> corners;
   for (const Complex& z : polygon.points()) corners.push_back(cdt.insert(point_of(z)));
@@ -364,24 +403,27 @@ Mesh refined_mesh(PolygonView polygon, const MeshOptions& options) {
   return mesh;
 }
 
-Mesh polygon_mesh(PolygonView polygon, const MeshOptions& options) {
+template <class Make>
+Mesh without_cgal_errors(Make make) {
   // The exception has the details. The default handler would also print them.
   static const auto printing =
       CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
   static_cast<void>(printing);
   try {
-    return refined_mesh(polygon, options);
+    return make();
   } catch (const CGAL::Failure_exception&) {
     nearly_touches_itself();
   }
 }
 
-}  // namespace
+Mesh polygon_mesh(PolygonView polygon, const MeshOptions& options) {
+  const double wanted = std::max(options.vertices, 16);
+  return without_cgal_errors(
+      [&] { return sized_mesh(polygon, sizing_for(polygon, wanted), wanted); });
+}
 
-Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
-  check_rest_cage(cage);  // its messages name the cage's own segments
-  const FlatCage flat = flattened(cage);
-  Mesh mesh = polygon_mesh(flat, options);
+/// The mesh of a cage from that of its flattened form.
+Mesh settled(const Cage& cage, const FlatCage& flat, Mesh mesh) {
   if (flat.points.size() == static_cast<size_t>(cage.size())) return mesh;
   settle_on(cage, flat, mesh);
   untangle(mesh);
@@ -390,6 +432,24 @@ Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
     if (flat.locations[i].t == 0) vertices.push_back(mesh.cage_vertices[i]);
   mesh.cage_vertices = std::move(vertices);
   return mesh;
+}
+
+}  // namespace
+
+Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
+  check_rest_cage(cage);  // its messages name the cage's own segments
+  const FlatCage flat = flattened(cage);
+  return settled(cage, flat, polygon_mesh(flat, options));
+}
+
+Mesh graded_mesh(const Cage& cage, const std::function<double(Complex)>& length_at, int most) {
+  check_rest_cage(cage);
+  const FlatCage flat = flattened(cage);
+  Sizing sizing(flat);
+  sizing.set_lengths(flat, length_at);
+  const double excess = sizing.expected_vertices(flat) / most;
+  if (excess > 1) sizing.set_scale(sizing.finest() * std::sqrt(excess));
+  return settled(cage, flat, without_cgal_errors([&] { return sized_mesh(flat, sizing, most); }));
 }
 
 Mesh domain_mesh(PolygonView polygon, const MeshOptions& options) {

@@ -1,6 +1,8 @@
 // The triangle mesh of the inside of a cage. Part of the mesher library, since it uses CGAL.
 #pragma once
 
+#include <functional>
+
 #include "core/mesh/mesh.h"
 
 namespace holomorph {
@@ -24,5 +26,11 @@ Mesh domain_mesh(PolygonView polygon, const MeshOptions& options = {});
 /// vertex lies on the curves of the cage. The outline of the mesh follows the curves to within 5e-5
 /// of the cage's size.
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options = {});
+
+/// A mesh whose edges have about the lengths that a function gives for points of the cage, which it
+/// must give as positive numbers. Lengths that would change by more than 0.3 times the way between
+/// two points are shortened. If there would be more than `most` vertices, all edges are longer by
+/// the same factor. Cost: also about 2,500 calls of the function.
+Mesh graded_mesh(const Cage& cage, const std::function<double(Complex)>& length_at, int most);
 
 }  // namespace holomorph

@@ -181,6 +181,51 @@ TEST_CASE("Derivative samples differ from the mesh vertices only at cage vertice
   for (const int v : mesh.cage_vertices) CHECK(winding_number(shapes::l_shape(), samples[v]) == 1);
 }
 
+TEST_CASE("A graded mesh has the edges that are asked for, or is coarser by one factor") {
+  for (const unsigned seed : seeds_of("graded meshes", {1, 2})) {
+    std::mt19937 random(seed);
+    const Cage cage = polygon_cage(shapes::star(9, 0.25, seed));
+    const double size = box_of(outline_of(cage)).diagonal();
+    const Complex fine = Complex(200, 200) + 60.0 * random_complex(random);
+    const auto length_at = [&](Complex z) {
+      return 0.008 * size + 0.1 * std::abs(z - fine);  // does not grow too fast
+    };
+    double coarser = 0;
+    for (const int most : {100000, 400}) {
+      const Mesh mesh = graded_mesh(cage, length_at, most);
+      double sum = 0, shortest = HUGE_VAL, longest = 0;
+      int count = 0;
+      const std::vector<char> outer = boundary_marks(mesh);
+      for (const Triangle& t : mesh.triangles) {
+        CHECK(triangle_area(mesh, t) > 0);
+        for (int k = 0; k < 3; ++k) {
+          const int a = t[static_cast<size_t>((k + 1) % 3)],
+                    b = t[static_cast<size_t>((k + 2) % 3)];
+          if (outer[static_cast<size_t>(a)] || outer[static_cast<size_t>(b)]) continue;
+          const Complex from = mesh.vertices[static_cast<size_t>(a)],
+                        to = mesh.vertices[static_cast<size_t>(b)];
+          const double ratio = std::abs(to - from) / length_at(0.5 * (from + to));
+          sum += std::log(ratio), ++count;
+          shortest = std::min(shortest, ratio);
+          longest = std::max(longest, ratio);
+        }
+      }
+      REQUIRE(count > 50);
+      const double mean = std::exp(sum / count);
+      CAPTURE(seed, most, mesh.vertices.size(), mean, shortest, longest);
+      CHECK(longest / shortest < 12);
+      if (most == 400) {
+        CHECK(mesh.vertices.size() < 600);
+        CHECK(mean > 1.3 * coarser);
+      } else {
+        CHECK(mean > 0.5);
+        CHECK(mean < 1.3);
+        coarser = mean;
+      }
+    }
+  }
+}
+
 TEST_CASE("A polygon that cannot be a cage is rejected") {
   CHECK_THROWS_AS(domain_mesh(Points{{0, 0}, {10, 10}, {10, 0}, {0, 10}}), Error);
   CHECK_THROWS_AS(domain_mesh(Points{{0, 0}, {10, 10}, {20, 20}}), Error);
