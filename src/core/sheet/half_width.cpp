@@ -8,7 +8,7 @@ namespace holomorph {
 namespace {
 
 // A disk between two centers would reach a little farther than theirs.
-constexpr double kReach = 1.05;
+constexpr double kDiskReach = 1.05;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ HalfWidth::HalfWidth(const Mesh& mesh) {
   // Disks that a larger one reaches around say nothing. Most of the others lie along the middle.
   for (const Disk& disk : disks) {
     const auto contains = [&](const Disk& larger) {
-      const double room = kReach * larger.radius - disk.radius;
+      const double room = kDiskReach * larger.radius - disk.radius;
       return std::norm(disk.center - larger.center) <= room * room;
     };
     if (disk.radius > 0 && std::ranges::none_of(disks_, contains)) disks_.push_back(disk);
@@ -37,7 +37,7 @@ HalfWidth::HalfWidth(const Mesh& mesh) {
 
 double HalfWidth::at(Complex z) const {
   for (const Disk& disk : disks_)
-    if (std::norm(z - disk.center) <= kReach * kReach * disk.radius * disk.radius)
+    if (std::norm(z - disk.center) <= kDiskReach * kDiskReach * disk.radius * disk.radius)
       return disk.radius;
   return 0;
 }
