@@ -50,18 +50,22 @@ TEST_CASE("Continued maps: inside they are the map, and everywhere finite") {
         std::mt19937 random(seed);
         const Continued c(method, shape, 10, random);
         const MeshLocator locator(*c.s.rest.mesh);
-        const Points points = points_around(*c.s.rest.mesh, few_or_many(120, 300), random);
-        const auto values = c.map->values_at(points), own = c.inside->values_at(points);
+        const Points points = points_around(*c.s.rest.mesh, few_or_many(80, 300), random);
+        const auto values = c.map->values_at(points);
         int inside = 0, outside = 0;
         for (size_t i = 0; i < points.size(); ++i) {
           CHECK(is_finite(values[i].f));
           CHECK(is_finite(values[i].fz));
           CHECK(is_finite(values[i].fzbar));
-          (locator.at(points[i]) ? inside : outside)++;
-          if (locator.at(points[i])) CHECK(std::abs(values[i].f - own[i].f) < 1e-9);
+          if (!locator.at(points[i])) {
+            ++outside;
+            continue;
+          }
+          ++inside;
+          CHECK(std::abs(values[i].f - c.inside->at(points[i]).f) < 1e-9);
         }
-        CHECK(inside > 10);
-        CHECK(outside > 10);
+        CHECK(inside > 5);
+        CHECK(outside > 5);
       }
 }
 
