@@ -27,8 +27,8 @@ Mesh domain_mesh(PolygonView polygon, const MeshOptions& options = {});
 /// of the cage's size.
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options = {});
 
-/// A mesh whose edges have about the lengths that a function gives for points of the cage, which it
-/// must give as positive numbers. Lengths that would change by more than 0.3 times the way between
+/// A mesh whose edges have about the lengths, which must be positive, that a function gives for
+/// points of the cage. Lengths that would change by more than 0.3 times the way between
 /// two points are shortened. If there would be more than `most` vertices, all edges are longer by
 /// the same factor. Cost: also about 2,500 calls of the function.
 Mesh graded_mesh(const Cage& cage, const std::function<double(Complex)>& length_at, int most);

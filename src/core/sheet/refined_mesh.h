@@ -7,8 +7,8 @@ namespace holomorph {
 
 struct RefinedMesh {
   Mesh mesh;  ///< the coarse mesh's vertices first, in their order
-  /// Of all further vertices, in the coarse mesh. Those on the outline may lie outside of their
-  /// triangle, next to an edge.
+  /// Where the vertices that the coarse mesh does not have lie in it. On the outline, a vertex may
+  /// lie outside of its triangle, next to an edge.
   std::vector<Location> locations;
 
   /// The values of a map that is linear in each triangle of the coarse mesh, continued to vertices
@@ -18,7 +18,7 @@ struct RefinedMesh {
 };
 
 /// Divides the triangles of a mesh of the inside of a cage. Middles of edges on the outline move to
-/// the middle of their part of the cage, or as far toward it as no part of their triangle gets too
+/// the middle of their part of the cage, or less far if a part of their triangle would get too
 /// small. Cost: O(n log n) in the number of triangles.
 RefinedMesh refined_mesh(const Cage& cage, const Mesh& coarse);
 

@@ -34,7 +34,8 @@ using SheetHessian = Eigen::Matrix<double, 6, 6>;
 /// membrane is twice the mean of s_t for rigid motions, and infinite if a triangle is flipped.
 class SheetEnergy {
  public:
-  /// `stiffness` has a value for each triangle, and `bending` the length l for each vertex.
+  /// `stiffness` has a value for each triangle, and `bending` the length l for each vertex, in
+  /// units of the plane. Cost: linear in the number of triangles.
   SheetEnergy(std::shared_ptr<const Mesh> mesh, VectorXd stiffness, const VectorXd& bending);
 
   const Mesh& mesh() const { return *mesh_; }
@@ -46,7 +47,7 @@ class SheetEnergy {
   /// coupled.
   const Eigen::SparseMatrix<double>& bending_matrix() const { return bending_; }
   /// Derivatives of the membrane of one triangle, which must not be flipped. The Hessian is given
-  /// by its eigenvectors (isotropic energies; Smith, De Goes, Kim 2019, sec. 4). `projected`: a
+  /// by its eigenvectors (isotropic energies; Smith, De Goes, Kim 2019). `projected`: a
   /// negative eigenvalue is replaced by 0.
   SheetGradient gradient_of(size_t triangle, const VectorXc& f) const;
   SheetHessian hessian_of(size_t triangle, const VectorXc& f, bool projected) const;
@@ -58,7 +59,8 @@ class SheetEnergy {
   double first_flip(const VectorXc& f, const VectorXc& d) const;
 
  private:
-  /// Of the hat function of each corner: f_z is the sum of these times the values at the corners.
+  /// The z derivatives of the corners' hat functions: f_z is the sum of these times the values of f
+  /// at the corners.
   using Gradients = std::array<Complex, 3>;
 
   struct Changes;

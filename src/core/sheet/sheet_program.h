@@ -5,11 +5,11 @@
 
 namespace holomorph {
 
-/// A point that a handle pulls at: a sum of vertices with real weights, whose image
-/// `weight` |sum - target|^2 pulls to its target. `weight` is per unit of the plane squared.
+/// A point that a handle pulls at. Its image is a sum of the images of vertices with real weights,
+/// and costs `weight` times its squared distance from the handle's target.
 struct SheetRow {
-  std::vector<std::pair<int, double>> terms;
-  double weight = 0;
+  std::vector<std::pair<int, double>> terms;  ///< vertices and their weights
+  double weight = 0;                          ///< per squared unit of the plane
 };
 
 /// What holds a sheet.
@@ -34,7 +34,7 @@ class SheetProgram {
 
   struct Step {
     double value = 0;      ///< after the step
-    double decrement = 0;  ///< of the value, that the quadratic model expected of a full step
+    double decrement = 0;  ///< by how much the quadratic model expected the value to fall
     double length = 0;     ///< the part of the Newton step that was taken; 0: none lowers the value
   };
   /// A Newton step from f, which must not have a flipped triangle, and does not have one

@@ -13,7 +13,7 @@ struct Corner {
   Complex along(Complex d) const { return fz * d + fzbar * std::conj(d); }
 };
 
-/// The Bezier points of the thirds, by the conditions of continuity (Farin 2002, sec. 22.3).
+/// The Bezier points of the thirds. Continuity determines those that are not on an edge.
 CubicThirds cubics_of(const std::array<Corner, 3>& corners) {
   const Complex center = (corners[0].z + corners[1].z + corners[2].z) / 3.0;
   std::array<Complex, 3> to_center, across, near_center;

@@ -15,7 +15,7 @@ namespace holomorph {
 /// whose barycentric coordinates are u, v and w.
 using CubicThirds = std::array<TriangleCubic, 3>;
 
-/// Bounds on a map's stretches in a region, and proofs by them.
+/// Proved bounds on the stretches and on the Jacobian determinant of a map in a region.
 struct StretchBounds {
   double smallest = 0, largest = 0;  ///< lower and upper bound
   double least_determinant = 0;      ///< lower bound
