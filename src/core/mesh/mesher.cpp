@@ -75,6 +75,9 @@ class Sizing {
     for (float& each : lengths_) each /= static_cast<float>(finest_);
   }
 
+  /// Whether the edge lengths were given. Small compared to the grid's cells, they need the exact
+  /// distance from the outline.
+  bool is_given() const { return !lengths_.empty(); }
   double distance(Complex z) const { return interpolated(distance_, z); }
   double size(Complex z) const {
     if (!lengths_.empty()) return finest_ * interpolated(lengths_, z);
@@ -213,7 +216,11 @@ std::vector<Point> lattice(PolygonView polygon, const Sizing& sizing) {
         if (level > 1 &&
             (r % level != 0 || ((2 * c + r % 2) + (r / level % 2) * level) % (2 * level) != 0))
           continue;
-        if (sizing.distance(z) < 0.7 * level * step) continue;
+        constexpr double kClearance = 0.7;  // from the outline, in units of the lattice's step
+        if (sizing.distance(z) < kClearance * level * step) continue;
+        if (sizing.is_given() &&
+            nearest_on_polygon(polygon, z).distance < kClearance * level * step)
+          continue;
         points.push_back(point_of(z));
       }
     }

@@ -35,10 +35,9 @@ HalfWidth::HalfWidth(const Mesh& mesh) {
   }
 }
 
-double HalfWidth::at(Complex z) const {
+double HalfWidth::at(Complex z, double reach) const {
   for (const Disk& disk : disks_)
-    if (std::norm(z - disk.center) <= kDiskReach * kDiskReach * disk.radius * disk.radius)
-      return disk.radius;
+    if (std::norm(z - disk.center) <= reach * reach * disk.radius * disk.radius) return disk.radius;
   return 0;
 }
 

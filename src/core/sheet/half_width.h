@@ -15,7 +15,7 @@ class HalfWidth {
   explicit HalfWidth(const Mesh& mesh);
 
   /// At a point inside the outline, or on it. Cost: linear in the number of disks that are kept.
-  double at(Complex z) const;
+  double at(Complex z, double reach = 1.05) const;
 
  private:
   struct Disk {

@@ -26,6 +26,21 @@ Complex direction_of(Complex z) {
   return size > 0 ? z / size : Complex(1);
 }
 
+/// The masses of inner vertices, with equal shares of those of their neighbors on the outline.
+VectorXd inner_shares(const Mesh& mesh, const std::vector<char>& outer, const VectorXd& masses) {
+  // An edge inside belongs to two triangles, so that all inner neighbors are counted twice.
+  VectorXd neighbors = VectorXd::Zero(masses.size()), shares = masses;
+  const auto for_each_pair = [&](const auto& use) {
+    for (const Triangle& t : mesh.triangles)
+      for (const int v : t)
+        for (const int w : t)
+          if (outer[static_cast<size_t>(v)] && !outer[static_cast<size_t>(w)]) use(v, w);
+  };
+  for_each_pair([&](int v, int) { neighbors[v] += 1; });
+  for_each_pair([&](int v, int w) { shares[w] += masses[v] / neighbors[v]; });
+  return shares;
+}
+
 }  // namespace
 
 SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
@@ -67,11 +82,13 @@ SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
   weights_ /= area;
   second_.resize(3 * vertices, vertices);
   second_.setFromTriplets(entries.begin(), entries.end());
+  // The area around outline vertices bends as their neighbors inside do.
+  const VectorXd shares = inner_shares(mesh, outer, masses);
   VectorXd inverse_masses(3 * vertices), squares(3 * vertices);
   for (Index v = 0; v < vertices; ++v)
     for (int k = 0; k < 3; ++k) {  // f_xy counts twice in |H|^2
       inverse_masses[3 * v + k] = 1 / masses[v];
-      squares[3 * v + k] = (k == 1 ? 2 : 1) * masses[v] * bending[v] * bending[v] / area;
+      squares[3 * v + k] = (k == 1 ? 2 : 1) * shares[v] * bending[v] * bending[v] / area;
     }
   second_ = inverse_masses.asDiagonal() * second_;
   bending_ = second_.transpose() * squares.asDiagonal() * second_;

@@ -80,14 +80,15 @@ SheetProgram::SheetProgram(std::shared_ptr<const SheetEnergy> energy, SheetHolds
 
 SheetProgram::~SheetProgram() = default;
 
-double SheetProgram::value(const VectorXc& f, const Points& targets) const {
+double SheetProgram::value(const VectorXc& f, const SheetPull& pull) const {
   double sum = energy_->value(f);
   for (size_t r = 0; r < holds_.rows.size(); ++r)
-    sum += holds_.rows[r].weight * std::norm(image_of(holds_.rows[r], f) - targets[r]);
+    sum += holds_.rows[r].weight * std::norm(image_of(holds_.rows[r], f) - pull.targets[r]);
+  for (const VertexPull& at : pull.vertices) sum += at.weight * std::norm(f[at.vertex] - at.target);
   return sum;
 }
 
-VectorXd SheetProgram::gradient(const VectorXc& f, const Points& targets) const {
+VectorXd SheetProgram::gradient(const VectorXc& f, const SheetPull& pull) const {
   const VectorXd x = energy_->bending_matrix() * f.real(), y = energy_->bending_matrix() * f.imag();
   VectorXd gradient(2 * f.size());
   for (Index v = 0; v < f.size(); ++v) gradient.segment<2>(2 * v) << x[v], y[v];
@@ -98,9 +99,13 @@ VectorXd SheetProgram::gradient(const VectorXc& f, const Points& targets) const 
   }
   for (size_t r = 0; r < holds_.rows.size(); ++r) {
     const SheetRow& row = holds_.rows[r];
-    const Complex off = 2 * row.weight * (image_of(row, f) - targets[r]);
+    const Complex off = 2 * row.weight * (image_of(row, f) - pull.targets[r]);
     for (const auto& [v, weight] : row.terms)
       gradient.segment<2>(2 * v) += weight * Eigen::Vector2d(off.real(), off.imag());
+  }
+  for (const VertexPull& at : pull.vertices) {
+    const Complex off = 2 * at.weight * (f[at.vertex] - at.target);
+    gradient.segment<2>(2 * at.vertex) += Eigen::Vector2d(off.real(), off.imag());
   }
   for (Index i = 0; i < gradient.size(); ++i)
     if (is_fixed(i)) gradient[i] = 0;
@@ -108,7 +113,7 @@ VectorXd SheetProgram::gradient(const VectorXc& f, const Points& targets) const 
 }
 
 /// Factorizes the Hessian at f. Returns whether it is positive definite.
-bool SheetProgram::factorize(const VectorXc& f, bool projected) {
+bool SheetProgram::factorize(const SheetPull& pull, const VectorXc& f, bool projected) {
   Matrix& matrix = factor_->matrix;
   double* values = matrix.valuePtr();
   std::copy_n(constant_.valuePtr(), constant_.nonZeros(), values);
@@ -119,7 +124,11 @@ bool SheetProgram::factorize(const VectorXc& f, bool projected) {
       for (Index j = 0; j <= k; ++j, ++at)
         if (const int slot = slots_[i][at]; slot >= 0) values[slot] += own(k, j);
   }
-  double largest = 0;  // of the diagonal, whose entries are the first of their columns
+  // Entries of the diagonal are the first of their columns.
+  for (const VertexPull& at : pull.vertices)
+    for (Index i = 2 * at.vertex; i < 2 * at.vertex + 2; ++i)
+      if (!is_fixed(i)) values[matrix.outerIndexPtr()[i]] += 2 * at.weight;
+  double largest = 0;
   for (Index i = 0; i < matrix.cols(); ++i)
     largest = std::max(largest, values[matrix.outerIndexPtr()[i]]);
   for (Index i = 0; i < matrix.cols(); ++i)
@@ -128,11 +137,11 @@ bool SheetProgram::factorize(const VectorXc& f, bool projected) {
   return factor_->solver.info() == Eigen::Success && factor_->solver.vectorD().minCoeff() > 0;
 }
 
-SheetProgram::Step SheetProgram::step(const Points& targets, VectorXc& f, bool projected) {
-  check(targets.size() == holds_.rows.size(), "sheet: a target for each row");
-  const double before = value(f, targets);
-  if ((projected || !factorize(f, false)) && !factorize(f, true)) return {before, 0, 0};
-  const VectorXd slopes = gradient(f, targets), down = factor_->solver.solve(-slopes);
+SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool projected) {
+  check(pull.targets.size() == holds_.rows.size(), "sheet: a target for each row");
+  const double before = value(f, pull);
+  if ((projected || !factorize(pull, f, false)) && !factorize(pull, f, true)) return {before, 0, 0};
+  const VectorXd slopes = gradient(f, pull), down = factor_->solver.solve(-slopes);
   VectorXc d(f.size());
   for (Index v = 0; v < d.size(); ++v) d[v] = {down[2 * v], down[2 * v + 1]};
   constexpr double kFlipShare = 0.9, kArmijo = 1e-4, kShortest = 1e-10;
@@ -141,7 +150,7 @@ SheetProgram::Step SheetProgram::step(const Points& targets, VectorXc& f, bool p
   for (double length = std::min(1.0, kFlipShare * energy_->first_flip(f, d)); length > kShortest;
        length *= 0.5) {
     VectorXc there = f + length * d;
-    const double after = value(there, targets);
+    const double after = value(there, pull);
     if (!(after <= before + kArmijo * length * slope)) continue;
     f = std::move(there);
     step.value = after;
@@ -151,13 +160,13 @@ SheetProgram::Step SheetProgram::step(const Points& targets, VectorXc& f, bool p
   return step;
 }
 
-SheetProgram::Step SheetProgram::minimize(const Points& targets, VectorXc& f, int most,
+SheetProgram::Step SheetProgram::minimize(const SheetPull& pull, VectorXc& f, int most,
                                           double tolerance) {
   constexpr double kNear = 1e-2;  // of the value: a decrement from which on true Hessians are tried
   Step last;
   bool is_near = false;
   for (int i = 0; i < most; ++i) {
-    last = step(targets, f, !is_near);
+    last = step(pull, f, !is_near);
     is_near = last.length > 0.5 && last.decrement <= kNear * last.value;
     if (last.length == 0 || last.decrement <= tolerance * last.value) break;
   }

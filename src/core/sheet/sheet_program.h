@@ -12,25 +12,38 @@ struct SheetRow {
   double weight = 0;                          ///< per squared unit of the plane
 };
 
-/// What holds a sheet.
+/// What holds a sheet, whatever the pose is.
 struct SheetHolds {
   std::vector<SheetRow> rows;
   /// For each vertex, whether its x and its y stay. Empty: none do.
   std::vector<std::array<bool, 2>> fixed;
 };
 
-/// Minimizes the energy plus the pull of the rows. Holds the symbolic factorization of a mesh and
-/// the vertices that its rows join, so that a step only has numbers to compute.
+/// A pull at a vertex. It costs `weight` times the squared distance from the target.
+struct VertexPull {
+  int vertex = 0;
+  Complex target;
+  double weight = 0;  ///< per squared unit of the plane
+};
+
+/// Where the handles pull a sheet.
+struct SheetPull {
+  Points targets;  ///< of the rows
+  std::vector<VertexPull> vertices = {};
+};
+
+/// Minimizes the energy plus the pull of the handles. Holds the symbolic factorization of a mesh
+/// and the vertices that its rows join, so that a step only has numbers to compute.
 class SheetProgram {
  public:
   /// Cost: a symbolic sparse factorization.
   SheetProgram(std::shared_ptr<const SheetEnergy> energy, SheetHolds holds);
   ~SheetProgram();
 
-  /// The energy, with the pull of rows with these targets. Infinite if a triangle is flipped.
-  double value(const VectorXc& f, const Points& targets) const;
+  /// The energy, with the pull. Infinite if a triangle is flipped.
+  double value(const VectorXc& f, const SheetPull& pull) const;
   /// Its derivatives in x and y of each vertex, and 0 where these are fixed.
-  VectorXd gradient(const VectorXc& f, const Points& targets) const;
+  VectorXd gradient(const VectorXc& f, const SheetPull& pull) const;
 
   struct Step {
     double value = 0;      ///< after the step
@@ -42,15 +55,15 @@ class SheetProgram {
   /// (Armijo). With `projected`, the Hessians of triangles are made semidefinite, which is faster
   /// far from the minimum. Without it, Newton's method converges quadratically; where the matrix is
   /// not definite, the step is as with it. Cost: one or two sparse factorizations.
-  Step step(const Points& targets, VectorXc& f, bool projected);
+  Step step(const SheetPull& pull, VectorXc& f, bool projected);
   /// Steps until the decrement is at most `tolerance` times the value, or at most `most` times.
-  Step minimize(const Points& targets, VectorXc& f, int most, double tolerance = 1e-10);
+  Step minimize(const SheetPull& pull, VectorXc& f, int most, double tolerance = 1e-10);
 
   const SheetEnergy& energy() const { return *energy_; }
 
  private:
   struct Factor;
-  bool factorize(const VectorXc& f, bool projected);
+  bool factorize(const SheetPull& pull, const VectorXc& f, bool projected);
   bool is_fixed(Index unknown) const {
     return !holds_.fixed.empty() &&
            holds_.fixed[static_cast<size_t>(unknown / 2)][static_cast<size_t>(unknown % 2)];

@@ -35,6 +35,21 @@ std::vector<int> fitted(const Neighbors& around, int vertex) {
   return found;
 }
 
+/// The weights of values in the fit's derivatives in x and in y. The rows of the fit, transposed,
+/// are multiplied by the closeness of their points.
+std::array<VectorXd, 2> fitted_slopes(const MatrixXd& transposed, const VectorXd& closeness) {
+  const ShortestLeastSquares fit(transposed);
+  std::array<VectorXd, 2> slopes{fit.solve(VectorXd::Unit(5, 0)).cwiseProduct(closeness),
+                                 fit.solve(VectorXd::Unit(5, 1)).cwiseProduct(closeness)};
+  // Points near a conic through the vertex hardly determine a quadratic. Then a small one is taken.
+  constexpr double kLargest = 20, kSmall = 0.05;
+  if (std::max(slopes[0].norm(), slopes[1].norm()) <= kLargest) return slopes;
+  MatrixXd normal = transposed * transposed.transpose();
+  for (Index i = 2; i < 5; ++i) normal(i, i) += kSmall * kSmall * closeness.squaredNorm();
+  const MatrixXd rows = solve_symmetric_all(normal, transposed * closeness.asDiagonal());
+  return {VectorXd(rows.row(0)), VectorXd(rows.row(1))};
+}
+
 }  // namespace
 
 VertexGradients::VertexGradients(const Mesh& mesh) {
@@ -60,12 +75,10 @@ VertexGradients::VertexGradients(const Mesh& mesh) {
           d.imag() * d.imag() / 2;
       transposed.col(i) *= closeness[i];
     }
-    const ShortestLeastSquares fit(transposed);
-    const VectorXd x = fit.solve(VectorXd::Unit(5, 0)).cwiseProduct(closeness) / size,
-                   y = fit.solve(VectorXd::Unit(5, 1)).cwiseProduct(closeness) / size;
+    const auto [x, y] = fitted_slopes(transposed, closeness);
     Complex own = 0;
     for (Index i = 0; i < count; ++i) {
-      const Complex weight = 0.5 * Complex(x[i], -y[i]);
+      const Complex weight = 0.5 / size * Complex(x[i], -y[i]);
       entries.emplace_back(v, near[static_cast<size_t>(i)], weight);
       own -= weight;
     }

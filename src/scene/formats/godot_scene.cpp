@@ -36,7 +36,8 @@ std::string godot_points(const Points& points) {
 
 std::string godot_of(const MovingMeshes& moving, const std::vector<std::string>& textures) {
   const std::vector<std::string> names = unique_names(moving);
-  const bool animated = std::ranges::any_of(moving.meshes, moves);
+  const bool animated =
+      std::ranges::any_of(moving.meshes, [](const MovingMesh& mesh) { return moves(mesh); });
   std::string text =
       "[gd_scene load_steps=" + std::to_string(textures.size() + animated + 1) + " format=2]\n\n";
   for (size_t i = 0; i < textures.size(); ++i)
