@@ -1,25 +1,13 @@
 // A map with continuous derivatives through given values and derivatives at a mesh's vertices.
-//
-// Each triangle is divided at its center into three, on which the map is cubic (Clough, Tocher
-// 1965). The derivative across an edge is linear along it, so that neighbors agree there.
 #pragma once
 
-#include "core/maps/deformer.h"
-#include "core/maps/triangle_cubic.h"
+#include <set>
+
 #include "core/mesh/locator.h"
+#include "core/sheet/cubic_thirds.h"
 #include "core/sheet/vertex_gradients.h"
 
 namespace holomorph {
-
-/// A cubic on each third of a triangle: third k has corner k + 1, corner k + 2 and the center,
-/// whose barycentric coordinates are u, v and w.
-using CubicThirds = std::array<TriangleCubic, 3>;
-
-/// Proved bounds on the stretches and on the Jacobian determinant of a map in a region.
-struct StretchBounds {
-  double smallest = 0, largest = 0;  ///< lower and upper bound
-  double least_determinant = 0;      ///< lower bound
-};
 
 /// The value at a point as a sum of values at vertices with real weights, where derivatives are
 /// recovered by `gradients`.
@@ -28,22 +16,37 @@ std::vector<std::pair<int, double>> smooth_row(const Mesh& mesh, const VertexGra
 
 class SmoothMap final : public PointMap {
  public:
-  /// Values and derivatives at the mesh's vertices.
-  SmoothMap(std::shared_ptr<const Mesh> mesh, const VectorXc& f, const VectorXc& fz,
-            const VectorXc& fzbar);
+  /// Values and derivatives at the mesh's vertices. The locator must be that of the mesh.
+  SmoothMap(std::shared_ptr<const Mesh> mesh, std::shared_ptr<const MeshLocator> locator,
+            VectorXc f, VectorXc fz, VectorXc fzbar);
 
   Value at(Complex z) const override;
   Value at(const Location& location) const;
 
-  /// Bounds in a triangle from the Bernstein coefficients of the derivatives, which enclose them.
-  /// Thirds are divided up to `depth` times where this may improve the bounds.
-  StretchBounds bounds(size_t triangle, int depth) const;
+  /// The result of a guard: the triangles where the map was changed, and the first one, if any,
+  /// where the proof fails.
+  struct Guarded {
+    size_t straightened = 0;
+    std::optional<size_t> unproved;
+  };
+  /// Proves that the map is locally injective: that its determinant is positive, up to rounding, by
+  /// Bernstein coefficients. Where that fails, pulls the map toward the one that is linear in each
+  /// triangle, whose determinants must be positive: edges toward their chords, for both triangles
+  /// at an edge alike. Derivatives are no longer continuous there, so that the angles around
+  /// vertices are also proved to close after one turn, or to be less than one at the outline.
+  /// Cost: linear; 0.3 us for a triangle where nothing changes.
+  Guarded guard();
+
   const CubicThirds& cubics(size_t triangle) const { return cubics_[triangle]; }
 
  private:
+  CubicThirds smooth_cubics(size_t triangle) const;
+  std::optional<size_t> with_wrong_angle(const std::set<size_t>& among) const;
+
   std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<const MeshLocator> locator_;
+  VectorXc f_, fz_, fzbar_;
   std::vector<CubicThirds> cubics_;
-  MeshLocator locator_;
 };
 
 }  // namespace holomorph

@@ -2,7 +2,9 @@
 // them.
 #include "core/sheet/smooth_map.h"
 
+#include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
+#include "core/sheet/sheet_energy.h"
 #include "core/sheet/vertex_gradients.h"
 #include "support/catch.h"
 #include "support/seeds.h"
@@ -40,7 +42,7 @@ Complex waved(Complex z) {
 
 SmoothMap smooth(const std::shared_ptr<const Mesh>& mesh, const VectorXc& f) {
   const VertexGradients gradients(*mesh);
-  return {mesh, f, gradients.fz(f), gradients.fzbar(f)};
+  return {mesh, std::make_shared<const MeshLocator>(*mesh), f, gradients.fz(f), gradients.fzbar(f)};
 }
 
 VectorXc at_vertices(const Mesh& mesh, const std::function<Complex(Complex)>& map) {
@@ -85,7 +87,7 @@ TEST_CASE("Smooth map: values and derivatives are continuous between triangles a
       fz[v] = 1.0 + random_complex(random);
       fzbar[v] = random_complex(random);
     }
-    const SmoothMap map(mesh, f, fz, fzbar);
+    const SmoothMap map(mesh, nullptr, f, fz, fzbar);
     const auto near = [](const PointMap::Value& a, const PointMap::Value& b) {
       CHECK(std::abs(a.f - b.f) < 1e-9);
       CHECK(std::abs(a.fz - b.fz) < 1e-9);
@@ -126,7 +128,7 @@ TEST_CASE("Smooth map: rows of points are the map there, and sum to one") {
     VectorXc f(static_cast<Index>(mesh->vertices.size()));
     for (Complex& z : f) z = random_complex(random);
     const VertexGradients gradients(*mesh);
-    const SmoothMap map(mesh, f, gradients.fz(f), gradients.fzbar(f));
+    const SmoothMap map = smooth(mesh, f);
     for (int i = 0; i < 100; ++i) {
       const Location at = random_location(*mesh, random);
       Complex value = 0;
@@ -163,7 +165,7 @@ TEST_CASE("Smooth map: recovered derivatives converge, and bounds enclose what i
         CHECK(off < 0.6 * coarse);
       CHECK(off < 0.1);
       for (size_t t = 0; t < mesh->triangles.size(); t += 7) {
-        const StretchBounds bounds = map.bounds(t, 8);
+        const StretchBounds bounds = map.cubics(t).bounds(8);
         double smallest = 1e9, largest = 0, determinant = 1e9;
         for (int i = 0; i < 60; ++i) {
           Location at = random_location(*mesh, random);
@@ -185,6 +187,69 @@ TEST_CASE("Smooth map: recovered derivatives converge, and bounds enclose what i
       }
     }
   }
+}
+
+TEST_CASE("Smooth map: guarded, it does not fold where no triangle is flipped") {
+  for (const unsigned seed : seeds_of("guarded maps", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    const auto mesh = star_mesh(seed, 200);
+    const SheetEnergy sheet(mesh, VectorXd::Ones(static_cast<Index>(mesh->triangles.size())),
+                            VectorXd::Zero(static_cast<Index>(mesh->vertices.size())));
+    const std::vector<char> outer = boundary_marks(*mesh);
+    VectorXc f = at_vertices(*mesh, [](Complex z) { return z; }), d(f.size());
+    for (int round = 0; round < 6; ++round) {  // ever closer to a flip, in more and more places
+      for (Index v = 0; v < d.size(); ++v)
+        d[v] = outer[static_cast<size_t>(v)] ? Complex(0) : 10.0 * random_complex(random);
+      f += std::min(1.0, 0.9 * sheet.first_flip(f, d)) * d;
+    }
+    REQUIRE(flipped_triangles(*mesh, f) == 0);
+    SmoothMap map = smooth(mesh, f);
+    const SmoothMap::Guarded guarded = map.guard();
+    CAPTURE(seed, guarded.straightened);
+    CHECK_FALSE(guarded.unproved);
+    CHECK(guarded.straightened > 10);
+    CHECK(guarded.straightened < mesh->triangles.size());
+    for (int i = 0; i < 2000; ++i) {
+      const PointMap::Value at = map.at(random_location(*mesh, random));
+      CHECK(std::abs(at.fz) > std::abs(at.fzbar));
+    }
+    // It is continuous, and passes through the values.
+    const MeshLocator locator(*mesh);
+    for (size_t t = 0; t < mesh->triangles.size(); ++t)
+      for (size_t k = 0; k < 3; ++k) {
+        Location at{static_cast<int>(t)};
+        at.weights[k] = 1;
+        CHECK(std::abs(map.at(at).f - f[mesh->triangles[t][k]]) < 1e-9);
+        at.weights[k] = 0.3, at.weights[(k + 1) % 3] = 0.7;
+        const Complex z = at.in(*mesh, mesh->vertices),
+                      across =
+                          (z -
+                           mesh->vertices[static_cast<size_t>(mesh->triangles[t][(k + 2) % 3])]) *
+                          1e-9;
+        if (const auto other = locator.at(z + across))
+          CHECK(std::abs(map.at(*other).f - map.at(at).f) < 1e-5);
+      }
+  }
+}
+
+TEST_CASE("Smooth map: a flipped triangle is not proved, nor is an image that winds twice") {
+  const auto mesh = star_mesh(3, 100);
+  VectorXc f = at_vertices(*mesh, [](Complex z) { return std::conj(z); });
+  SmoothMap mirrored = smooth(mesh, f);
+  CHECK(mirrored.guard().unproved);
+  // The square function, around a vertex: all triangles are counter-clockwise.
+  Mesh wheel;
+  wheel.vertices.push_back(0);
+  for (int k = 0; k < 12; ++k) wheel.vertices.push_back(std::polar(1.0, 2 * kPi * k / 12));
+  for (int k = 1; k <= 12; ++k) {
+    wheel.triangles.push_back({0, k, k % 12 + 1});
+    wheel.boundary.push_back(k);
+  }
+  const auto shared = std::make_shared<const Mesh>(wheel);
+  const VectorXc squares = at_vertices(wheel, [](Complex z) { return z * z; });
+  REQUIRE(flipped_triangles(wheel, squares) == 0);
+  SmoothMap twice = smooth(shared, squares);
+  CHECK(twice.guard().unproved);
 }
 
 }  // namespace holomorph::smooth_map_test
