@@ -24,6 +24,7 @@ Rest rest_of(const Deformation& deformation, Precision precision) {
   for (const Corner& corner : deformation.corners) rest.corners.push_back(corner.vertex);
   rest.outline = deformation.outline;
   rest.stiffness = deformation.stiffness;
+  rest.frame = deformation.frame;
   rest.parameters = deformation.parameters;
   rest.other_parameters = deformation.other_parameters;
   rest.precision = precision;

@@ -82,6 +82,7 @@ struct Deformation {
   std::optional<SurfaceReference> surface = {};
   std::vector<Corner> corners = {};      ///< sorted by vertex
   std::vector<BrushDab> stiffness = {};  ///< painted dabs, for methods that use them
+  Frame frame = Frame::free;             ///< what the sides of the cage may do
   /// Sorted by time. Keyframes whose poses do not fit the handles are kept but do not play.
   std::vector<Keyframe> keyframes = {};
   std::string method = usual_method(MethodUse::cage).id;

@@ -5,6 +5,7 @@
 
 #include "core/clock.h"
 #include "scene/budget.h"
+#include "scene/solving_mesh.h"
 
 namespace holomorph {
 namespace {
@@ -100,6 +101,10 @@ std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precis
   check_coordinates(prepared->rest, static_cast<Index>(prepared->mesh->vertices.size()));
   prepared->rest.samples = prepared->mesh->vertices;
   prepared->rest.mesh = prepared->mesh;
+  if (method_named(deformation.method).smooths_mesh)
+    prepared->rest.mesh = same_cage && method_named(previous->method).smooths_mesh
+                              ? previous->rest.mesh
+                              : std::make_shared<const Mesh>(solving_mesh(deformation.rest));
   if (same_cage) prepared->between.store(previous->between.load());
   prepared->rest.derivative_samples =
       same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);

@@ -125,7 +125,7 @@ FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,
   const auto values_at = [&](std::span<const Complex> points) {
     return values_on_all_cores(*map, points, keep_going);
   };
-  return fine_map(prepared_->rest.cage, *drawn, tolerance, values_at);
+  return fine_map(prepared_->rest.cage, *drawn, tolerance, values_at, map->is_piecewise());
 }
 
 std::vector<std::vector<Preimage>> TimedMap::Inverse::at(

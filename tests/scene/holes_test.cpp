@@ -117,7 +117,7 @@ TEST_CASE("Errors about holes name the place and the reason") {
                 "[[[0,0]], [[200,0]], [[220,100]], [[0,100]]]",
                 "\"rest\": []"),
       Contains("/cage/holes") && Contains("no cage"));
-  CHECK_THAT(complaint("\"version\": 3", "\"version\": 4"), Contains("newer"));
+  CHECK_THAT(complaint("\"version\": 3", "\"version\": 5"), Contains("newer"));
 }
 
 TEST_CASE("SVG: holes are subpaths, in any order, and are read back") {

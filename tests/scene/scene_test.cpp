@@ -71,7 +71,7 @@ TEST_CASE("Errors in a scene name the file, the JSON pointer and the reason") {
              Contains("scene.json") && Contains("damaged or ends too early, at line"));
   CHECK_THAT(complaint("[]"), Contains("expected an object"));
   CHECK_THAT(complaint("{}"), Contains("not a Holomorph scene"));
-  CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 4")),
+  CHECK_THAT(complaint(replaced(kText, "\"version\": 1", "\"version\": 5")),
              Contains("/version") && Contains("newer"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50]")), Contains("/pins/0/rest"));
   CHECK_THAT(complaint(replaced(kText, "[50,60]", "[50,\"60\"]")),
@@ -101,6 +101,20 @@ TEST_CASE("Errors in a scene name the file, the JSON pointer and the reason") {
   std::string many = R"({"format":"holomorph","version":1,"cage":{"rest":[)";
   for (int i = 0; i < 6000; ++i) many += "[[0,0]],";
   CHECK_THAT(complaint(many + "[[1,1]]]}}"), Contains("more than 5000"));
+}
+
+TEST_CASE("A frame is kept, and files that have one are not for older programs") {
+  using Catch::Contains;
+  Scene scene = scene_from_json(kText, "x");
+  CHECK_THAT(json_of(scene), Contains("\"version\": 1") && !Contains("\"frame\""));
+  for (const Frame frame : {Frame::slide, Frame::fixed}) {
+    change_layer(scene, [&](Layer& layer) { layer.deformation.frame = frame; });
+    const std::string written = json_of(scene);
+    CHECK_THAT(written, Contains("\"version\": 4") && Contains("\"frame\": "));
+    CHECK(scene_from_json(written, "again") == scene);
+  }
+  CHECK_THAT(complaint(replaced(json_of(scene), "\"fixed\"", "\"golden\"")),
+             Contains("/frame") && Contains("slide"));
 }
 
 TEST_CASE("Writing replaces a file as a whole or not at all") {

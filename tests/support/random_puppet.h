@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <random>
+#include <string>
 
 #include "core/maps/rest.h"
 #include "core/mesh/mesher.h"
@@ -10,7 +12,14 @@
 
 namespace holomorph {
 
-/// A shape with pins, for the method `puppet`.
+/// The methods that keep sizes, follow pins and never fold. HOLOMORPH_METHOD sets a single one, for
+/// measurements.
+inline std::vector<std::string> puppet_methods() {
+  if (const char* given = std::getenv("HOLOMORPH_METHOD")) return {given};
+  return {"puppet", "sheet"};
+}
+
+/// A shape with pins, for such methods.
 struct Puppet {
   Rest rest;
   double size = 1;  ///< the diagonal

@@ -77,6 +77,8 @@ class PointMap {
   virtual std::vector<Value> values_at(std::span<const Complex> points) const;
   /// Whether the map is linear in each triangle of the rest's mesh.
   virtual bool is_linear_in_triangles() const { return false; }
+  /// Whether the map is put together from pieces, so that its second derivatives may jump.
+  virtual bool is_piecewise() const { return false; }
 };
 
 /// The values and derivatives of a map at many points.

@@ -68,10 +68,12 @@ struct Piece {
 /// The triangles in which the map is nearly cubic.
 class Cubics {
  public:
-  Cubics(const Cage& rest, const Mesh& mesh, double tolerance, const PointValues& values_at)
+  Cubics(const Cage& rest, const Mesh& mesh, double tolerance, bool is_piecewise,
+         const PointValues& values_at)
       : rest_(oriented(rest)),
         mesh_(mesh),
         tolerance_(tolerance),
+        is_piecewise_(is_piecewise),
         shortest_(kShortest * box_of(mesh.vertices).diagonal()),
         values_at_(values_at),
         vertices_(mesh.vertices),
@@ -84,7 +86,7 @@ class Cubics {
       Edge& edge = edges_[static_cast<size_t>(edge_between(mesh.boundary[i], next))];
       edge.arc = edge.a == mesh.boundary[i] ? arcs[i] : reversed(arcs[i]);
     }
-    while (mark_edges()) {
+    while (mark_edges() | mark_kinked()) {
       mark_longest();
       cut();
       check_size(pieces_.size());
@@ -176,6 +178,24 @@ class Cubics {
       return true;
     error_ = std::max(error_, miss);
     return false;
+  }
+
+  /// For maps that are put together from pieces: marks the longest edges of triangles in which the
+  /// map is not nearly cubic, although it is along the edges.
+  bool mark_kinked() {
+    constexpr double kCenter = 6.0 / 27;  // the weight of the inner Bezier point at the center
+    bool any = false;
+    for (const Piece& piece : pieces_) {
+      if (!is_piecewise_) break;
+      const auto suggested = inner_points(piece);
+      const double spread =
+          std::max({std::abs(suggested[1] - suggested[0]), std::abs(suggested[2] - suggested[1]),
+                    std::abs(suggested[0] - suggested[2])});
+      Edge& edge = edges_[static_cast<size_t>(longest(piece))];
+      if (!(kCenter * spread > kCubicShare * tolerance_) || !(length(edge) > shortest_)) continue;
+      edge.is_cut = any = true;
+    }
+    return any;
   }
 
   double length(const Edge& edge) const { return std::abs(vertices_[edge.b] - vertices_[edge.a]); }
@@ -279,29 +299,40 @@ class Cubics {
     return static_cast<int>(fine.f.size()) - 1;
   }
 
-  TriangleCubic cubic_of(const Piece& piece) const {
+  std::array<std::array<Complex, 4>, 3> sides_of(const Piece& piece) const {
     std::array<std::array<Complex, 4>, 3> side;
     for (size_t k = 0; k < 3; ++k) {
       const int from = piece.v[k], to = piece.v[(k + 1) % 3];
       side[k] = cubic_between(vertices_[from], values_[from], vertices_[to], values_[to]);
     }
+    return side;
+  }
+
+  TriangleCubic cubic_of(const Piece& piece) const {
+    const auto side = sides_of(piece);
     TriangleCubic cubic;
     cubic(3, 0) = side[0][0], cubic(2, 1) = side[0][1], cubic(1, 2) = side[0][2];
     cubic(0, 3) = side[1][0], cubic(0, 2) = side[1][1], cubic(0, 1) = side[1][2];
     cubic(0, 0) = side[2][0], cubic(1, 0) = side[2][1], cubic(2, 0) = side[2][2];
-    // Each edge suggests the inner Bezier point for which the derivative across it is right.
-    Complex inner = 0;
+    const auto suggested = inner_points(piece);
+    cubic(1, 1) = (suggested[0] + suggested[1] + suggested[2]) / 3.0;
+    return cubic;
+  }
+
+  /// The inner Bezier points for which the derivative across each edge is right.
+  std::array<Complex, 3> inner_points(const Piece& piece) const {
+    const auto side = sides_of(piece);
+    std::array<Complex, 3> inner;
     for (size_t k = 0; k < 3; ++k) {
       const auto& p = side[k];
       const Complex a = vertices_[piece.v[k]], b = vertices_[piece.v[(k + 1) % 3]],
                     c = vertices_[piece.v[(k + 2) % 3]], beside_a = side[(k + 2) % 3][2],
                     beside_b = side[(k + 1) % 3][1];
       const Edge& edge = edges_[static_cast<size_t>(piece.edges[k])];
-      inner += 2.0 / 3.0 * along(edge.at_middle, c - 0.5 * (a + b)) + 0.25 * (p[0] + p[3]) +
-               0.75 * (p[1] + p[2]) - 0.5 * (beside_a + beside_b);
+      inner[k] = 2.0 / 3.0 * along(edge.at_middle, c - 0.5 * (a + b)) + 0.25 * (p[0] + p[3]) +
+                 0.75 * (p[1] + p[2]) - 0.5 * (beside_a + beside_b);
     }
-    cubic(1, 1) = inner / 3.0;
-    return cubic;
+    return inner;
   }
 
   void divide(const Piece& piece, FineMap& fine) const {
@@ -362,7 +393,9 @@ class Cubics {
 
   Cage rest_;
   const Mesh& mesh_;
-  double tolerance_, shortest_, error_ = 0;
+  double tolerance_;
+  bool is_piecewise_;
+  double shortest_, error_ = 0;
   const PointValues& values_at_;
   size_t evaluations_ = 0;
   Points vertices_;
@@ -374,9 +407,9 @@ class Cubics {
 
 }  // namespace
 
-FineMap fine_map(const Cage& rest, const Mesh& mesh, double tolerance,
-                 const PointValues& values_at) {
-  return Cubics(rest, mesh, tolerance, values_at).linear_pieces();
+FineMap fine_map(const Cage& rest, const Mesh& mesh, double tolerance, const PointValues& values_at,
+                 bool is_piecewise) {
+  return Cubics(rest, mesh, tolerance, is_piecewise, values_at).linear_pieces();
 }
 
 }  // namespace holomorph

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/cauchy/cauchy.h"
-#include "core/geometry/polygon.h"
 
 namespace holomorph {
 namespace {
@@ -15,23 +14,22 @@ double usual_radius(const Cage& cage) {
   return kUsualRadius * box_of(outline_of(cage).points).diagonal();
 }
 
-/// Whether the open segment from a to b crosses no edge of the polygon.
-bool sees(PolygonView polygon, Complex a, Complex b) {
+}  // namespace
+
+double held_radius(const Cage& cage, const RestPin& pin) {
+  return pin.radius.value_or(usual_radius(cage));
+}
+
+bool sees(PolygonView outline, Complex a, Complex b) {
   bool free = true;
   const Complex way = std::conj(b - a);
-  polygon.for_each_edge([&](Index, Complex from, Complex to) {
+  outline.for_each_edge([&](Index, Complex from, Complex to) {
     const Complex p = (from - a) * way, q = (to - a) * way;
     if ((p.imag() > 0) == (q.imag() > 0)) return;
     const double at = p.real() + (q.real() - p.real()) * p.imag() / (p.imag() - q.imag());
     free = free && (at <= 0 || at >= std::norm(way));
   });
   return free;
-}
-
-}  // namespace
-
-double held_radius(const Cage& cage, const RestPin& pin) {
-  return pin.radius.value_or(usual_radius(cage));
 }
 
 Points held_disk(const Cage& cage, const RestPin& pin) {

@@ -49,7 +49,7 @@ struct Method {
   std::string hint;
   std::vector<ParameterSpec> parameters = {};
   bool uses_pins = false, uses_strokes = false, uses_outline = false, uses_corners = false,
-       uses_stiffness = false;
+       uses_stiffness = false, uses_frame = false;
   bool holds_disks = false;        ///< the frame of a pin acts on a disk, not on its center alone
   bool pins_replace_cage = false;  ///< while there are pins, the posed cage has no effect
   bool limbs_in_front = false;     ///< limbs are drawn in front of the body: EqualHeights::outward
@@ -59,7 +59,10 @@ struct Method {
   bool harmonic = true;            ///< f_z and conj(f_zbar) are holomorphic
   /// Motions of the plane: if all handles move by one of these, the map is that motion.
   enum class Motions { none, rigid, similar } reproduces = Motions::similar;
-  bool needs_mesh = false;   ///< Rest::mesh must be set
+  bool needs_mesh = false;  ///< Rest::mesh must be set
+  /// The map is smooth between the vertices of Rest::mesh, which should have edges about half as
+  /// long as the picture is wide there (HalfWidth). Other methods use finer ones.
+  bool smooths_mesh = false;
   bool allows_holes = true;  ///< the cage may have holes
   bool follows_others =
       false;  ///< approximates the map of another method, which has its own parameters

@@ -23,6 +23,10 @@ enum class Precision {
   full     ///< operators in double, for numeric output
 };
 
+/// What the outline of the picture may do: follow the handles; slide along itself, so that a
+/// rectangle remains one; or nothing. Only what lies on horizontal and vertical sides can slide.
+enum class Frame { free, slide, fixed };
+
 /// A point handle at rest. With `has_frame`, its pose also prescribes an angle and a scale.
 struct RestPin {
   Complex position;
@@ -61,7 +65,8 @@ struct Rest {
   Points outline = {};  ///< closed curve that the cage's shape is mapped onto; empty: none
   std::vector<Index> corners = {};       ///< cage vertices with angles, in order; empty: all
   std::vector<BrushDab> stiffness = {};  ///< stiffness of the picture; empty: uniform
-  Points samples;                        ///< where the map is evaluated, inside or on the cage
+  Frame frame = Frame::free;
+  Points samples;  ///< where the map is evaluated, inside or on the cage
   /// Where f_z and f_zbar are evaluated, one point per sample. If empty, they are evaluated at
   /// `samples`. Methods whose derivatives are finite on the boundary always evaluate them at
   /// `samples`.

@@ -17,6 +17,7 @@ const std::vector<Method>& methods() {
                              angles_method(),   harmonic_method(), mean_value_method()};
     rows.push_back(bounded_method(rows, "pins"));
     rows.push_back(puppet_method());
+    rows.push_back(sheet_method());
     return rows;
   }();
   return table;
@@ -91,6 +92,7 @@ Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_outline) rest.outline.clear();
   if (!method.uses_corners) rest.corners.clear();
   if (!method.uses_stiffness) rest.stiffness.clear();
+  if (!method.uses_frame) rest.frame = Frame::free;
   const bool holds_disks = followed_method(method, rest.parameters).holds_disks;
   for (RestPin& pin : rest.pins)
     if (!holds_disks || !pin.has_frame) pin.radius.reset();

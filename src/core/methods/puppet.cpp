@@ -226,39 +226,17 @@ class PuppetDeformer final : public Deformer {
     out.fzbar = std::move(at.fzbar);
   }
 
-  /// The strongest distortion of the picture, which explains why a pin is missed.
-  static std::string strain_text(const std::optional<Extremes>& extremes) {
-    if (!extremes) return "";
-    char text[80];
-    if (extremes->largest * extremes->smallest > 1)
-      std::snprintf(text, sizeof text, ". The picture already stretches to %.0f %%",
-                    100 * extremes->largest);
-    else
-      std::snprintf(text, sizeof text, ". The picture already shrinks to %.0f %%",
-                    100 * extremes->smallest);
-    return text;
-  }
-
   std::string note(const IsometricMap& map, const SampledMap& out) const {
     if (!map.certificate.holds) return "Not proved near " + point_text(map.certificate.where);
     std::string text = "No folds";
     if (rest_.samples == rest_.mesh->vertices)
       if (const int flipped = flipped_triangles(*rest_.mesh, out.f); flipped > 0)
         text = coarse_mesh_text(flipped);
-    const double least = kMissed * box_of(rest_.mesh->vertices).diagonal();
-    double farthest = 0;
-    size_t which = 0;
-    int missed = 0;
-    for (size_t i = 0; i < handles_.pins().size(); ++i) {
-      const double off = std::abs(map.solution.offsets[static_cast<Index>(i)]);
-      missed += off >= least;
-      if (off > farthest) farthest = off, which = handles_.pins()[i];
-    }
-    if (missed > 0) text += short_pin_text(which, farthest);
-    if (missed > 1)
-      text += missed == 2 ? ", and another pin by less"
-                          : ", and " + std::to_string(missed - 1) + " other pins by less";
-    if (missed > 0)
+    const std::string missed = missed_pins_text(
+        handles_.pins(), std::span(map.solution.offsets.data(), handles_.pins().size()),
+        kMissed * box_of(rest_.mesh->vertices).diagonal());
+    text += missed;
+    if (!missed.empty())
       text += value("limited") != 0 ? ". The limits allow no more" : strain_text(out.extremes);
     if (!handles_.note().empty()) text += ". " + handles_.note();
     return text;

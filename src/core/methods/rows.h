@@ -42,4 +42,8 @@ Method bounded_method(const std::vector<Method>& references, const std::string& 
 /// `puppet`: keeps sizes and shapes as far as possible, and never folds.
 Method puppet_method();
 
+/// `sheet`: an elastic sheet that resists changes of size and bending, and never folds. What is far
+/// from the handles that move stays.
+Method sheet_method();
+
 }  // namespace holomorph

@@ -8,6 +8,8 @@
 namespace holomorph {
 namespace {
 
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 /// A quadratic's Bezier points: at (i, j, k) with i + j + k = 2, in the order (2, 0, 0), (0, 2, 0),
 /// (0, 0, 2), (1, 1, 0), (0, 1, 1), (1, 0, 1).
 using Quadratic = std::array<Complex, 6>;
@@ -82,6 +84,7 @@ StretchBounds bounds_of(const Slopes2& slopes) {
   for (size_t k = 1; k < a.size(); ++k)
     bounds.least_determinant = std::min(bounds.least_determinant, a[k] - b[k]);
   bounds.largest = std::sqrt(std::max(0.0, most_a)) + std::sqrt(std::max(0.0, most_b));
+  bounds.shear = least_a > 0 ? std::sqrt(std::max(0.0, most_b) / least_a) : kUnbounded;
   bounds.smallest = std::max(bounds.least_determinant / bounds.largest,
                              std::sqrt(std::max(0.0, least_a)) - std::sqrt(std::max(0.0, most_b)));
   return bounds;
@@ -158,11 +161,11 @@ PointMap::Value CubicThirds::at(const std::array<double, 3>& weights) const {
 StretchBounds CubicThirds::bounds(int depth) const {
   std::vector<Slopes2> pieces;
   for (size_t k = 0; k < 3; ++k) pieces.push_back(slopes_of(thirds_[k], corners_of(k)));
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  StretchBounds bounds{kInfinite, 0, kInfinite};
+  StretchBounds bounds{kUnbounded, 0, 0, kUnbounded};
   const auto include = [&](const StretchBounds& own) {
     bounds.smallest = std::min(bounds.smallest, own.smallest);
     bounds.largest = std::max(bounds.largest, own.largest);
+    bounds.shear = std::max(bounds.shear, own.shear);
     bounds.least_determinant = std::min(bounds.least_determinant, own.least_determinant);
   };
   // A piece need not be divided where its corners attain its bounds within a tolerance.
@@ -171,15 +174,16 @@ StretchBounds CubicThirds::bounds(int depth) const {
     std::vector<Slopes2> finer;
     for (const Slopes2& piece : pieces) {
       const StretchBounds own = bounds_of(piece);
-      double smallest = kInfinite, largest = 0;
+      double smallest = kUnbounded, largest = 0, shear = 0;
       for (size_t k = 0; k < 3; ++k) {
         const double a = std::abs(piece.fz[k]), b = std::abs(piece.fzbar[k]);
         smallest = std::min(smallest, a - b);
         largest = std::max(largest, a + b);
+        shear = std::max(shear, b / a);
       }
-      const bool is_tight = own.least_determinant > 0 &&
-                            own.smallest >= (1 - kTolerance) * smallest &&
-                            own.largest <= (1 + kTolerance) * largest;
+      const bool is_tight =
+          own.least_determinant > 0 && own.smallest >= (1 - kTolerance) * smallest &&
+          own.largest <= (1 + kTolerance) * largest && own.shear <= shear + kTolerance;
       if (is_tight || level == depth) {
         include(own);
         continue;
@@ -195,7 +199,7 @@ StretchBounds CubicThirds::bounds(int depth) const {
 bool CubicThirds::is_positive() const {
   constexpr int kDepth = 8;
   constexpr double kRounding = 1e-14;
-  double coordinate = 0, side = std::numeric_limits<double>::infinity();
+  double coordinate = 0, side = kUnbounded;
   for (size_t k = 0; k < 3; ++k) {
     coordinate = std::max({coordinate, std::abs(z_[k]), std::abs(thirds_[k](3, 0))});
     side = std::min(side, std::abs(z_[(k + 1) % 3] - z_[k]));

@@ -15,10 +15,11 @@ struct SmoothCorner {
   Complex along(Complex d) const { return fz * d + fzbar * std::conj(d); }
 };
 
-/// Proved bounds on the stretches and on the Jacobian determinant of a map in a region.
+/// Proved bounds on a map's distortion in a region.
 struct StretchBounds {
-  double smallest = 0, largest = 0;  ///< lower and upper bound
-  double least_determinant = 0;      ///< lower bound
+  double smallest = 0, largest = 0;  ///< of the stretches: lower and upper bound
+  double shear = 0;                  ///< upper bound of |f_zbar / f_z|
+  double least_determinant = 0;      ///< lower bound of the Jacobian determinant
 };
 
 /// Third k has corner k + 1, corner k + 2 and the center, whose barycentric coordinates are u, v

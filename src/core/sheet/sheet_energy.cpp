@@ -52,19 +52,20 @@ SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
   check(weights_.size() == triangles, "sheet: a stiffness for each triangle");
   check(bending.size() == vertices, "sheet: a bending length for each vertex");
   const std::vector<char> outer = boundary_marks(mesh);
-  VectorXd masses = VectorXd::Zero(vertices);
+  VectorXd masses = VectorXd::Zero(vertices), stiff_masses = masses;
   double area = 0;
   using Entry = Eigen::Triplet<double>;
   std::vector<Entry> entries;
   for (Index i = 0; i < triangles; ++i) {
     const Triangle& t = mesh.triangles[static_cast<size_t>(i)];
     const double own = area_of(mesh, t);
-    area += own;
     weights_[i] *= own;
+    area += weights_[i];
     Gradients& gradients = gradients_.emplace_back();
     for (int k = 0; k < 3; ++k) {
       gradients[static_cast<size_t>(k)] = -kI * std::conj(opposite_side(mesh, t, k)) / (4 * own);
       masses[t[k]] += own / 3;
+      stiff_masses[t[k]] += weights_[i] / 3;
     }
     // The weak form: -area (d_a phi_v) (d_b phi_w), symmetric in a and b.
     for (size_t k = 0; k < 3; ++k) {
@@ -83,7 +84,7 @@ SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
   second_.resize(3 * vertices, vertices);
   second_.setFromTriplets(entries.begin(), entries.end());
   // The area around outline vertices bends as their neighbors inside do.
-  const VectorXd shares = inner_shares(mesh, outer, masses);
+  const VectorXd shares = inner_shares(mesh, outer, stiff_masses);
   VectorXd inverse_masses(3 * vertices), squares(3 * vertices);
   for (Index v = 0; v < vertices; ++v)
     for (int k = 0; k < 3; ++k) {  // f_xy counts twice in |H|^2

@@ -27,12 +27,13 @@ using SheetHessian = Eigen::Matrix<double, 6, 6>;
 /// The energy of a map with values f at a mesh's vertices,
 ///     E = 1/A sum_t A_t s_t (|J_t|^2 + |J_t^-1|^2) / 2  +  1/A sum_v B_v l_v^2 |H_v|^2 / 2,
 /// over triangles t with the Jacobian J_t, area A_t and stiffness s_t, and inner vertices v. A is
-/// the area of the mesh, M_v a third of the areas around v, and B_v the same with equal shares of
-/// those of neighbors on the outline. The Hessian
+/// the sum of A_t s_t. B_v is a third of this sum around v, with equal shares of that of neighbors
+/// on the outline. With M_v, a third of the areas around v, the Hessian
 ///     H_v^ab = -1/M_v sum_{t at v} A_t (d_a phi_v)_t (d_b f)_t,  made symmetric,
 /// is recovered from the hat functions phi_v, with natural boundary conditions (mixed elements;
-/// Stein and others 2018). Both terms are dimensionless and do not change under rigid motions. The
-/// membrane is twice the mean of s_t for rigid motions, and infinite if a triangle is flipped.
+/// Stein and others 2018). Both terms are dimensionless and do not change under rigid motions, nor
+/// if all of the sheet gets stiffer. The membrane is 2 for rigid motions, and infinite if a
+/// triangle is flipped.
 class SheetEnergy {
  public:
   /// `stiffness` has a value for each triangle, and `bending` the length l for each vertex, in

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "core/error.h"
 
@@ -35,6 +36,7 @@ Complex image_of(const SheetRow& row, const VectorXc& f) {
 }  // namespace
 
 struct SheetProgram::Factor {
+  std::mutex in_use;  ///< guards the members below
   Matrix matrix;
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver;
 };
@@ -113,7 +115,7 @@ VectorXd SheetProgram::gradient(const VectorXc& f, const SheetPull& pull) const 
 }
 
 /// Factorizes the Hessian at f. Returns whether it is positive definite.
-bool SheetProgram::factorize(const SheetPull& pull, const VectorXc& f, bool projected) {
+bool SheetProgram::factorize(const SheetPull& pull, const VectorXc& f, bool projected) const {
   Matrix& matrix = factor_->matrix;
   double* values = matrix.valuePtr();
   std::copy_n(constant_.valuePtr(), constant_.nonZeros(), values);
@@ -137,9 +139,10 @@ bool SheetProgram::factorize(const SheetPull& pull, const VectorXc& f, bool proj
   return factor_->solver.info() == Eigen::Success && factor_->solver.vectorD().minCoeff() > 0;
 }
 
-SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool projected) {
+SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool projected) const {
   check(pull.targets.size() == holds_.rows.size(), "sheet: a target for each row");
   const double before = value(f, pull);
+  const std::lock_guard lock(factor_->in_use);
   if ((projected || !factorize(pull, f, false)) && !factorize(pull, f, true)) return {before, 0, 0};
   const VectorXd slopes = gradient(f, pull), down = factor_->solver.solve(-slopes);
   VectorXc d(f.size());
@@ -161,12 +164,14 @@ SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool p
 }
 
 SheetProgram::Step SheetProgram::minimize(const SheetPull& pull, VectorXc& f, int most,
-                                          double tolerance) {
+                                          const std::function<void(const VectorXc&)>& after,
+                                          double tolerance) const {
   constexpr double kNear = 1e-2;  // of the value: a decrement from which on true Hessians are tried
   Step last;
   bool is_near = false;
   for (int i = 0; i < most; ++i) {
     last = step(pull, f, !is_near);
+    if (after) after(f);
     is_near = last.length > 0.5 && last.decrement <= kNear * last.value;
     if (last.length == 0 || last.decrement <= tolerance * last.value) break;
   }

@@ -1,6 +1,8 @@
 // Finds the map of least energy of an elastic sheet whose handles pull at it.
 #pragma once
 
+#include <functional>
+
 #include "core/sheet/sheet_energy.h"
 
 namespace holomorph {
@@ -55,15 +57,18 @@ class SheetProgram {
   /// (Armijo). With `projected`, the Hessians of triangles are made semidefinite, which is faster
   /// far from the minimum. Without it, Newton's method converges quadratically; where the matrix is
   /// not definite, the step is as with it. Cost: one or two sparse factorizations.
-  Step step(const SheetPull& pull, VectorXc& f, bool projected);
+  Step step(const SheetPull& pull, VectorXc& f, bool projected) const;
   /// Steps until the decrement is at most `tolerance` times the value, or at most `most` times.
-  Step minimize(const SheetPull& pull, VectorXc& f, int most, double tolerance = 1e-10);
+  /// Calls `after`, if there is one, with the map after each step.
+  Step minimize(const SheetPull& pull, VectorXc& f, int most,
+                const std::function<void(const VectorXc&)>& after = {},
+                double tolerance = 1e-10) const;
 
   const SheetEnergy& energy() const { return *energy_; }
 
  private:
   struct Factor;
-  bool factorize(const SheetPull& pull, const VectorXc& f, bool projected);
+  bool factorize(const SheetPull& pull, const VectorXc& f, bool projected) const;
   bool is_fixed(Index unknown) const {
     return !holds_.fixed.empty() &&
            holds_.fixed[static_cast<size_t>(unknown / 2)][static_cast<size_t>(unknown % 2)];

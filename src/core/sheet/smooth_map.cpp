@@ -126,8 +126,8 @@ SmoothMap::Guarded SmoothMap::guard() {
   return guarded;
 }
 
-/// A triangle at a vertex around which the image does not close after one turn, among the vertices
-/// of some triangles.
+/// A triangle at an inner vertex around which the image does not close after one turn, among the
+/// vertices of some triangles.
 std::optional<size_t> SmoothMap::with_wrong_angle(const std::set<size_t>& among) const {
   std::map<int, double> angles;
   for (const size_t i : among)
@@ -142,9 +142,7 @@ std::optional<size_t> SmoothMap::with_wrong_angle(const std::set<size_t>& among)
   const std::vector<char> outer = boundary_marks(*mesh_);
   for (const size_t i : among)
     for (const int v : mesh_->triangles[i]) {
-      const double excess = angles[v] - 2 * kPi;
-      if (outer[static_cast<size_t>(v)] ? excess > -kRounding : std::abs(excess) > kRounding)
-        return i;
+      if (outer[static_cast<size_t>(v)] == 0 && std::abs(angles[v] - 2 * kPi) > kRounding) return i;
     }
   return {};
 }

@@ -21,6 +21,7 @@ class SmoothMap final : public PointMap {
             VectorXc f, VectorXc fz, VectorXc fzbar);
 
   Value at(Complex z) const override;
+  bool is_piecewise() const override { return true; }
   Value at(const Location& location) const;
 
   /// The result of a guard: the triangles where the map was changed, and the first one, if any,
@@ -32,8 +33,9 @@ class SmoothMap final : public PointMap {
   /// Proves that the map is locally injective: that its determinant is positive, up to rounding, by
   /// Bernstein coefficients. Where that fails, pulls the map toward the one that is linear in each
   /// triangle, whose determinants must be positive: edges toward their chords, for both triangles
-  /// at an edge alike. Derivatives are no longer continuous there, so that the angles around
-  /// vertices are also proved to close after one turn, or to be less than one at the outline.
+  /// at an edge alike. Derivatives are no longer continuous there, so that the angles around inner
+  /// vertices are also proved to close after one turn. (Around a vertex of the outline, there may
+  /// be more: parts of the picture then overlap there.)
   /// Cost: linear; 0.3 us for a triangle where nothing changes.
   Guarded guard();
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <map>
+#include <span>
 
 #include "core/mesh/mesh.h"
 
@@ -12,8 +14,10 @@ namespace holomorph {
 /// six. They are exact for quadratics, except where the neighbors do not determine one.
 class VertexGradients {
  public:
-  /// Cost: a small least-squares problem for each vertex.
-  explicit VertexGradients(const Mesh& mesh);
+  /// `framed` marks vertices of the outline; empty: none. Their derivatives along the outline are
+  /// those of the outline's vertices alone, so that straight sides that stay on their lines are
+  /// images of themselves. Cost: a small least-squares problem for each vertex.
+  explicit VertexGradients(const Mesh& mesh, std::span<const char> framed = {});
 
   VectorXc fz(const VectorXc& f) const { return weights_ * f; }
   VectorXc fzbar(const VectorXc& f) const { return weights_.conjugate() * f; }

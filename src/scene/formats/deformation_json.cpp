@@ -1,6 +1,7 @@
 // The parts of a deformation are read in an order that lets each part refer to earlier ones.
 #include "scene/formats/deformation_json.h"
 
+#include <array>
 #include <set>
 
 #include "core/error.h"
@@ -149,6 +150,15 @@ BrushDab read_dab(const Reader& reader) {
           reader[3].within(-kMaxDabLevel, kMaxDabLevel)};
 }
 
+constexpr std::array<const char*, 3> kFrameNames{"free", "slide", "fixed"};
+
+Frame read_frame(const Reader& reader) {
+  const std::string name = reader.text();
+  for (size_t i = 0; i < kFrameNames.size(); ++i)
+    if (name == kFrameNames[i]) return static_cast<Frame>(i);
+  reader.fail("'" + name + "' is not a kind of frame; choose one of: free, slide, fixed");
+}
+
 Json parameters_json(const Method& method, const Parameters& parameters) {
   Json values = Json::object();
   for (const ParameterSpec& spec : method.parameters) {
@@ -249,6 +259,7 @@ Deformation read_deformation(const Reader& reader) {
     if (dabs.size() > kMaxDabs) dabs.fail("more than " + std::to_string(kMaxDabs) + " brush dabs");
     for (size_t i = 0; i < dabs.size(); ++i) deformation.stiffness.push_back(read_dab(dabs[i]));
   }
+  if (reader.has("frame")) deformation.frame = read_frame(reader["frame"]);
   if (reader.has("outline")) deformation.outline = read_curve(reader["outline"], check_outline);
   if (reader.has("surface")) {
     deformation.surface = read_surface(reader["surface"]);
@@ -288,6 +299,8 @@ void write_deformation(const Deformation& deformation, Json& document) {
   for (const BrushDab& dab : deformation.stiffness)
     document["stiffness"].push_back(
         Json::array({dab.at.real(), dab.at.imag(), dab.radius, dab.level}));
+  if (deformation.frame != Frame::free)
+    document["frame"] = kFrameNames[static_cast<size_t>(deformation.frame)];
   if (!deformation.outline.empty()) document["outline"] = curve_json(deformation.outline);
   if (deformation.surface) document["surface"] = surface_json(*deformation.surface);
   document["method"] = method_json(deformation);

@@ -15,8 +15,9 @@
 namespace holomorph {
 namespace {
 
-/// With a list of layers, without one, and with holes in cages, which older programs would drop.
-constexpr int kLayeredVersion = 2, kPlainVersion = 1, kHoleVersion = 3;
+/// With a list of layers, without one, and with holes in cages or a frame, which older programs
+/// would drop.
+constexpr int kLayeredVersion = 2, kPlainVersion = 1, kHoleVersion = 3, kFrameVersion = 4;
 constexpr int kDeepest = 200;  ///< limit on nesting, including unknown keys
 
 constexpr const char* kHold = "hold";
@@ -115,8 +116,8 @@ void read_shared(const Reader& reader, Scene& scene) {
 
 /// The known keys of a layer in both layouts of the file.
 constexpr std::initializer_list<const char*> kLayerKeys{
-    "image",     "cage",    "pins",    "strokes", "corners",
-    "stiffness", "outline", "surface", "method",  "keyframes"};
+    "image", "cage",    "pins",    "strokes", "corners",  "stiffness",
+    "frame", "outline", "surface", "method",  "keyframes"};
 
 Layer read_layer(const Reader& reader) {
   Layer layer;
@@ -245,10 +246,10 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
   if (!reader.has("format") || reader["format"].text() != "holomorph")
     reader.fail("not a Holomorph scene: \"format\": \"holomorph\" is missing");
   const int version = reader["version"].whole(1, 1 << 30);
-  if (version > kHoleVersion)
+  if (version > kFrameVersion)
     reader["version"].fail("the scene has version " + std::to_string(version) +
                            ", written by a newer program; this one reads versions up to " +
-                           std::to_string(kHoleVersion));
+                           std::to_string(kFrameVersion));
   Scene scene;
   read_shared(reader, scene);
   if (reader.has("layers"))
@@ -347,11 +348,15 @@ Json layers_json(const Scene& scene) {
   return layers;
 }
 
-/// Whether the cage of any layer has holes.
-bool has_holes(const Scene& scene) {
-  return std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
-    return !layer->deformation.rest.holes.empty();
-  });
+/// The oldest version that has all that is in the scene.
+int version_of(const Scene& scene) {
+  const auto any = [&](const auto& has) {
+    return std::ranges::any_of(scene.layers,
+                               [&](const SharedLayer& layer) { return has(layer->deformation); });
+  };
+  if (any([](const Deformation& d) { return d.frame != Frame::free; })) return kFrameVersion;
+  if (any([](const Deformation& d) { return !d.rest.holes.empty(); })) return kHoleVersion;
+  return has_layers(scene) ? kLayeredVersion : kPlainVersion;
 }
 
 Error not_utf8() {
@@ -380,7 +385,7 @@ std::string json_of(const Scene& scene) {
   const bool layered = has_layers(scene);
   Json document;
   document["format"] = "holomorph";
-  document["version"] = has_holes(scene) ? kHoleVersion : layered ? kLayeredVersion : kPlainVersion;
+  document["version"] = version_of(scene);
   if (layered) {
     document["layers"] = layers_json(scene);
     document["edited"] = scene.edited;

@@ -73,64 +73,72 @@ Dragged dragged(const Puppet& puppet, Deformer& deformer, std::mt19937& random) 
 
 }  // namespace
 
-TEST_CASE("Puppet: frames of random drags are proved, and a file decides what it shows") {
+TEST_CASE("Puppets: frames of random drags are proved, and a file decides what it shows") {
   // HOLOMORPH_DRAGS sets another number of drags, for measurements.
   const char* given = std::getenv("HOLOMORPH_DRAGS");
   const int count = given ? std::atoi(given) : 2;
-  const Method& method = method_named("puppet");
-  int drags = 0, missed = 0, moved_far = 0, chaotic = 0;
+  int drags = 0, gentle = 0, same = 0, same_gentle = 0, missed = 0, moved_far = 0, chaotic = 0;
   double slowest_draft = 0, slowest_final = 0, largest_met = 0, largest_missed = 0;
-  for (const unsigned seed : seeds_of("puppet_drags_test", {1}))
-    for (int i = 0; i < count; ++i) {
-      std::mt19937 random(seed + 1000003u * static_cast<unsigned>(i));
-      INFO("seed " << seed << ", drag " << i);
-      const Puppet puppet = random_puppet(random);
-      ++drags;
-      const auto deformer = method.prepare(puppet.rest, nullptr);
-      const Dragged drag = dragged(puppet, *deformer, random);
-      CHECK(drag.proved);
-      slowest_draft = std::max(slowest_draft, drag.slowest_ms);
-      const double start = now_ms();
-      const SampledMap released = deformer->deform(drag.pose, {}, drag.last.solution.get());
-      slowest_final = std::max(slowest_final, now_ms() - start);
-      CHECK(released.status == SampledMap::Status::certified);
-      // Another program, another history.
-      const auto again = method.prepare(puppet.rest, nullptr);
-      const auto apart_from = [&](const SampledMap& other) {
-        return (other.f - released.f).cwiseAbs().maxCoeff() / puppet.size;
-      };
-      const bool met = released.note.find("short") == std::string::npos;
-      const double goal = met ? 1e-6 : 1e-4;
-      CHECK(apart_from(again->deform(drag.pose, {})) <= goal);
-      // A machine that rounds differently. Where a picture is stretched a hundredfold, rounding
-      // errors grow over hundreds of steps.
-      Pose rounded = drag.pose;
-      for (PosePin& pin : rounded.pins) pin.position *= 1 + 4e-16 * (random() % 3);
-      const double apart = apart_from(again->deform(rounded, {}));
-      missed += !met;
-      (met ? largest_met : largest_missed) = std::max(met ? largest_met : largest_missed, apart);
-      constexpr double kExtreme = 20;  // 2 is rigid
-      if (isometric_energy_of(*puppet.rest.mesh, released.f) < kExtreme)
-        CHECK(apart <= goal);
-      else
-        chaotic += apart > goal;
-      // The turns lead back to the drag's minimum. A picture that is wound up may jump into
-      // another.
-      const double jump = (released.f - drag.last.f).cwiseAbs().maxCoeff() / puppet.size;
-      if (drag.gentle) CHECK(jump <= 0.3);
-      moved_far += jump > 0.1;
-      if (!released.extremes) continue;
-      const MapReport report = report_of(*puppet.rest.mesh, deformer->deform(drag.pose, {true}));
-      CHECK(report.max_k <= released.extremes->shear + 1e-9);
-      CHECK(report.min_sigma >= released.extremes->smallest - 1e-9);
-      CHECK(report.max_sigma <= released.extremes->largest + 1e-9);
-    }
+  for (const std::string& id : puppet_methods())
+    for (const unsigned seed : seeds_of("puppet_drags_test", {1}))
+      for (int i = 0; i < count; ++i) {
+        std::mt19937 random(seed + 1000003u * static_cast<unsigned>(i));
+        INFO(id << ", seed " << seed << ", drag " << i);
+        const Method& method = method_named(id);
+        const Puppet puppet = random_puppet(random);
+        ++drags;
+        const auto deformer = method.prepare(puppet.rest, nullptr);
+        const Dragged drag = dragged(puppet, *deformer, random);
+        CHECK(drag.proved);
+        slowest_draft = std::max(slowest_draft, drag.slowest_ms);
+        const double start = now_ms();
+        const SampledMap released = deformer->deform(drag.pose, {}, drag.last.solution.get());
+        slowest_final = std::max(slowest_final, now_ms() - start);
+        CHECK(released.status == SampledMap::Status::certified);
+        // Another program, another history.
+        const auto again = method.prepare(puppet.rest, nullptr);
+        const auto apart_from = [&](const SampledMap& other) {
+          return (other.f - released.f).cwiseAbs().maxCoeff() / puppet.size;
+        };
+        const bool met = released.note.find("short") == std::string::npos;
+        const double goal = met ? 1e-6 : 1e-4;
+        CHECK(apart_from(again->deform(drag.pose, {})) <= goal);
+        // A machine that rounds differently. Where a picture is stretched a hundredfold, rounding
+        // errors grow over hundreds of steps.
+        Pose rounded = drag.pose;
+        for (PosePin& pin : rounded.pins) pin.position *= 1 + 4e-16 * (random() % 3);
+        const double apart = apart_from(again->deform(rounded, {}));
+        missed += !met;
+        (met ? largest_met : largest_missed) = std::max(met ? largest_met : largest_missed, apart);
+        constexpr double kExtreme = 20;  // 2 is rigid
+        if (isometric_energy_of(*puppet.rest.mesh, released.f) < kExtreme)
+          CHECK(apart <= goal);
+        else
+          chaotic += apart > goal;
+        // The turns lead back to the drag's minimum. A picture that is wound up may jump into
+        // another.
+        const double jump = (released.f - drag.last.f).cwiseAbs().maxCoeff() / puppet.size;
+        if (drag.gentle) CHECK(jump <= 0.3);
+        moved_far += jump > 0.1;
+        constexpr double kSame = 1e-3;
+        gentle += drag.gentle;
+        same += jump <= kSame;
+        same_gentle += drag.gentle && jump <= kSame;
+        if (!released.extremes) continue;
+        const MapReport report = report_of(*puppet.rest.mesh, deformer->deform(drag.pose, {true}));
+        CHECK(report.max_k <= released.extremes->shear + 1e-9);
+        CHECK(report.min_sigma >= released.extremes->smallest - 1e-9);
+        CHECK(report.max_sigma <= released.extremes->largest + 1e-9);
+      }
   CHECK(chaotic <= 1 + drags / 40);
   if (given)
     std::printf(
         "%d drags: slowest draft %.1f ms, slowest final %.0f ms; finals agree to %.1e of the size "
-        "where pins are met, %.1e elsewhere (%d); %d moved by more than a tenth at the release\n",
-        drags, slowest_draft, slowest_final, largest_met, largest_missed, missed, moved_far);
+        "where pins are met, %.1e elsewhere (%d); %d moved by more than a tenth at the release, %d "
+        "by less than a thousandth, %d of %d gentle "
+        "ones\n",
+        drags, slowest_draft, slowest_final, largest_met, largest_missed, missed, moved_far, same,
+        same_gentle, gentle);
 }
 
 }  // namespace holomorph::puppet_drags_test

@@ -55,7 +55,8 @@ TEST_CASE("Fine map: linear pieces are within the tolerance of every method's ma
         if (map->is_linear_in_triangles()) continue;
         INFO(method.id << ", seed " << seed << ", shape " << static_cast<int>(shape));
         constexpr double kTolerance = 0.01;
-        const FineMap fine = fine_map(s.rest.cage, *s.rest.mesh, kTolerance, values_of(*map));
+        const FineMap fine =
+            fine_map(s.rest.cage, *s.rest.mesh, kTolerance, values_of(*map), map->is_piecewise());
         CHECK(largest_error(fine, s.rest.cage, *map, few_or_many(100, 400), random) <= kTolerance);
         // At corners, the derivative of an angle map may be infinite.
         if (method.id != "angles") CHECK(fine.error <= kTolerance);

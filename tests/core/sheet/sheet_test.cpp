@@ -183,7 +183,7 @@ TEST_CASE("Sheet: Newton steps end at a minimum, without flips on the way") {
     double last = program.value(f, pull);
     int steps = 0;
     for (bool ended = false; steps < 40 && !ended; ++steps) {
-      const SheetProgram::Step step = program.minimize(pull, f, 1, 0);
+      const SheetProgram::Step step = program.minimize(pull, f, 1, {}, 0);
       CHECK(step.value <= last);
       REQUIRE(flipped_triangles(mesh, f) == 0);
       last = step.value;

@@ -1,0 +1,66 @@
+// The handles of method `sheet`: what a rest holds, and where a pose pulls it.
+#pragma once
+
+#include "core/geometry/similarity.h"
+#include "core/methods/puppet_handles.h"
+#include "core/sheet/sheet_domain.h"
+#include "core/sheet/sheet_program.h"
+
+namespace holomorph {
+
+/// Pins, points along strokes and, without either, the cage's boundary are rows of the sheet. Pins
+/// with frames pull at the vertices of their disks.
+class SheetHandles {
+ public:
+  /// `weight` is the pull of a pin per squared distance in units of the picture's size.
+  SheetHandles(const Rest& rest, const SheetDomain& domain, double weight);
+
+  const SheetHolds& holds() const { return holds_; }
+  /// The pins that act, which have the first rows, and where they lie in the mesh.
+  const std::vector<size_t>& pins() const { return handles_.pins(); }
+  const std::vector<Location>& places() const { return places_; }
+  const std::string& note() const { return handles_.note(); }
+
+  /// Where a pose takes the handles.
+  struct Target {
+    VectorXc displacements;       ///< of the rows
+    std::vector<Complex> frames;  ///< log scale + i angle, for each pin with a frame
+    Turns turns;                  ///< of the pins
+
+    /// The farthest way of a row, and the largest rotation of a pin or a frame.
+    double farthest() const;
+    double largest_turn() const;
+    bool has_turns() const;  ///< whether a pin has a turn that is not 0
+  };
+  /// Throws Error if check_pose does.
+  Target target(const Pose& pose) const;
+  /// The rigid motion that takes all handles to their targets up to rounding, or nothing if none
+  /// exists. At rest, the motion is exactly the identity.
+  std::optional<Similarity> rigid(const Target& target) const;
+  /// The pull when the handles have gone this part of the way from rest to their targets. Pins with
+  /// turns also turn the disks around them, with this part of the pull of a frame.
+  SheetPull pull(const Target& target, double part = 1, double guide = 0) const;
+  /// The image of a row.
+  Complex image(size_t row, const VectorXc& f) const;
+  Complex wanted(size_t row, const Target& target) const {
+    return stations()[row] + target.displacements[static_cast<Index>(row)];
+  }
+
+ private:
+  /// The vertices around a pin, with weights.
+  using Disk = std::vector<std::pair<int, double>>;
+  const Points& stations() const { return handles_.isometric().stations; }
+  Disk disk_of(const Rest& rest, size_t row) const;
+  void add_frame(const Rest& rest);
+
+  PuppetHandles handles_;
+  std::shared_ptr<const Mesh> mesh_;
+  const SheetDomain& domain_;
+  double weight_;
+  SheetHolds holds_;
+  std::vector<Location> places_;
+  std::vector<Disk> guides_;    ///< around all pins
+  std::vector<size_t> framed_;  ///< the rows of pins with frames
+};
+
+}  // namespace holomorph

@@ -1,0 +1,143 @@
+// At a key, the pins miss their targets by as much as the sheet pulls at them. In between, they
+// miss the images that the blended map gives them by blended amounts, so that motion begins and
+// ends at the maps of the keys.
+#include "core/methods/sheet_motion.h"
+
+#include <cmath>
+
+#include "core/maps/distortion.h"
+#include "core/mesh/inbetween.h"
+
+namespace holomorph {
+namespace {
+
+/// What is shared by all intervals of a deformer.
+struct Setting {
+  std::shared_ptr<const SheetSolver> solver;
+  std::vector<Location> places;
+  std::shared_ptr<const Inbetween> between;
+};
+
+struct Key {
+  Inbetween::Shape shape;
+  SheetPull pull;
+  double time = 0;
+};
+
+class SheetInterval final : public MotionInterval {
+ public:
+  SheetInterval(std::shared_ptr<const Setting> setting, std::array<std::optional<Key>, 4> keys,
+                bool smooth, std::vector<char> met)
+      : setting_(std::move(setting)),
+        keys_(std::move(keys)),
+        still_(least_moving_point(mesh(), keys_[1]->shape.f, keys_[2]->shape.f)),
+        met_(std::move(met)) {
+    if (!smooth) return;
+    slopes_[0] = slopes(keys_[0], *keys_[1], keys_[2]);
+    slopes_[1] = slopes(keys_[1], *keys_[2], keys_[3]);
+  }
+
+  SampledMap at(double u, bool measures) const override {
+    const Inbetween::Interval interval{keys_[1]->shape,
+                                       keys_[2]->shape,
+                                       keys_[2]->time - keys_[1]->time,
+                                       slopes_[0] ? &*slopes_[0] : nullptr,
+                                       slopes_[1] ? &*slopes_[1] : nullptr,
+                                       &still_};
+    VectorXc f;
+    setting_->between->blend(interval, u, f);
+    const SheetPull pull = blended_pull(u, f);
+    if (flipped_triangles(mesh(), f) > 0) f = (u < 0.5 ? keys_[1] : keys_[2])->shape.f;
+    const ProvedSheet sheet(solver(), solver().relaxed(pull, met_, std::move(f)));
+    SampledMap map = sheet.sampled(setting_->places, true);
+    if (sheet.is_proved() && measures) map.extremes = sheet.extremes();
+    map.note = sheet.is_proved() ? "Between keyframes: no folds" : "Between keyframes: not proved";
+    return map;
+  }
+
+ private:
+  const SheetSolver& solver() const { return *setting_->solver; }
+  const Mesh& mesh() const { return *solver().domain().mesh; }
+
+  VectorXc slopes(const std::optional<Key>& before, const Key& here,
+                  const std::optional<Key>& after) const {
+    return setting_->between->slopes(
+        before ? &before->shape : nullptr, here.shape, after ? &after->shape : nullptr,
+        before ? here.time - before->time : 0, after ? after->time - here.time : 0);
+  }
+
+  SheetPull blended_pull(double u, const VectorXc& f) const {
+    const Key &from = *keys_[1], &to = *keys_[2];
+    const auto missed = [&](const auto& off) { return (1 - u) * off(from) + u * off(to); };
+    SheetPull pull = from.pull;
+    for (size_t row = 0; row < pull.targets.size(); ++row) {
+      if (row < met_.size() && met_[row] != 0 && from.pull.targets[row] == to.pull.targets[row])
+        continue;
+      const auto off = [&](const Key& key) {
+        return key.pull.targets[row] - solver().handles().image(row, key.shape.f);
+      };
+      pull.targets[row] = solver().handles().image(row, f) + missed(off);
+    }
+    for (size_t k = 0; k < pull.vertices.size(); ++k) {
+      VertexPull& at = pull.vertices[k];
+      const auto off = [&](const Key& key) {
+        return key.pull.vertices[k].target - key.shape.f[at.vertex];
+      };
+      at.target = f[at.vertex] + missed(off);
+    }
+    return pull;
+  }
+
+  std::shared_ptr<const Setting> setting_;
+  std::array<std::optional<Key>, 4> keys_;
+  std::array<std::optional<VectorXc>, 2> slopes_;
+  Location still_;
+  std::vector<char> met_;  ///< for each pin, whether it gets exactly to its target
+};
+
+class SheetMotion final : public ProvedMotion {
+ public:
+  explicit SheetMotion(Setting setting)
+      : setting_(std::make_shared<const Setting>(std::move(setting))) {}
+
+  std::unique_ptr<MotionInterval> interval(const MotionKey* before, const MotionKey& from,
+                                           const MotionKey& to, const MotionKey* after,
+                                           bool smooth) const override {
+    std::array<std::optional<Key>, 4> keys{key_of(before), key_of(&from), key_of(&to),
+                                           key_of(after)};
+    if (!keys[1] || !keys[2]) return nullptr;
+    std::vector<char> met;
+    const SheetSolver& solver = *setting_->solver;
+    for (size_t i = 0; i < solver.handles().pins().size(); ++i)
+      met.push_back(solver.settings().exact ||
+                    keys[1]->pull.targets[i] == keys[2]->pull.targets[i]);
+    return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(met));
+  }
+
+ private:
+  /// None if the key is not certified.
+  std::optional<Key> key_of(const MotionKey* key) const {
+    if (!key || !key->extremes) return {};
+    const SheetSolver& solver = *setting_->solver;
+    const auto* found = dynamic_cast<const SheetSolution*>(key->solution.get());
+    if (!found || found->domain != solver.shared_domain()) return {};
+    Inbetween::Shape shape = setting_->between->shape_of(found->state.f, 0);
+    const double turns = std::round((key->rotation - shape.logarithm.imag().mean()) / (2 * kPi));
+    if (turns != 0) shape = setting_->between->shape_of(found->state.f, static_cast<int>(turns));
+    return Key{std::move(shape), solver.handles().pull(solver.handles().target(*key->pose)),
+               key->time};
+  }
+
+  std::shared_ptr<const Setting> setting_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ProvedMotion> sheet_motion(std::shared_ptr<const SheetSolver> solver,
+                                                 std::vector<Location> places) {
+  auto between = std::make_shared<const Inbetween>(solver->domain().mesh);
+  return std::make_shared<const SheetMotion>(
+      Setting{std::move(solver), std::move(places), std::move(between)});
+}
+
+}  // namespace holomorph

@@ -1,0 +1,143 @@
+#include "core/methods/sheet_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/geometry/stiffness.h"
+
+namespace holomorph {
+namespace {
+
+std::shared_ptr<const SheetDomain> domain_of(const Rest& rest) {
+  std::vector<char> framed;
+  if (rest.frame != Frame::free) framed = boundary_marks(*rest.mesh);
+  return std::make_shared<const SheetDomain>(rest.mesh, std::move(framed));
+}
+
+std::shared_ptr<const SheetEnergy> energy_of(const Rest& rest, const SheetDomain& domain,
+                                             double roundness) {
+  constexpr double kLeast = 0.006, kMost = 0.08;  // of the size
+  const Mesh& mesh = *domain.mesh;
+  VectorXd stiffness(static_cast<Index>(mesh.triangles.size())),
+      bending(static_cast<Index>(mesh.vertices.size()));
+  for (Index i = 0; i < stiffness.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[static_cast<size_t>(i)];
+    const Complex center =
+        (mesh.vertices[static_cast<size_t>(a)] + mesh.vertices[static_cast<size_t>(b)] +
+         mesh.vertices[static_cast<size_t>(c)]) /
+        3.0;
+    stiffness[i] = std::pow(10, stiffness_level(rest.stiffness, center));
+  }
+  for (Index v = 0; v < bending.size(); ++v)
+    bending[v] = std::clamp(roundness * domain.width.at(mesh.vertices[static_cast<size_t>(v)]),
+                            kLeast * domain.size, kMost * domain.size);
+  return std::make_shared<const SheetEnergy>(domain.mesh, std::move(stiffness), bending);
+}
+
+}  // namespace
+
+SheetSolver::SheetSolver(const Rest& rest, const Settings& settings, const SheetSolver* previous)
+    : settings_(settings),
+      stiffness_(rest.stiffness),
+      domain_(previous && previous->domain_->mesh == rest.mesh &&
+                      previous->domain_->framed.empty() == (rest.frame == Frame::free)
+                  ? previous->domain_
+                  : domain_of(rest)),
+      energy_(previous && previous->domain_->mesh == rest.mesh &&
+                      previous->stiffness_ == stiffness_ &&
+                      previous->settings_.roundness == settings.roundness
+                  ? previous->energy_
+                  : energy_of(rest, *domain_, settings.roundness)),
+      handles_(rest, *domain_, settings.pin_weight),
+      program_(std::make_unique<SheetProgram>(energy_, handles_.holds())) {}
+
+SheetState SheetSolver::at_rest() const {
+  const Points& z = domain_->mesh->vertices;
+  return {Eigen::Map<const VectorXc>(z.data(), static_cast<Index>(z.size())),
+          std::vector<double>(handles_.pins().size(), 0)};
+}
+
+/// Newton steps, in which no rotation can change by half a turn.
+void SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state) const {
+  program_->minimize(pull, state.f, most, [&](const VectorXc& f) {
+    for (size_t i = 0; i < state.turns.size(); ++i) {
+      const size_t triangle = static_cast<size_t>(handles_.places()[i].triangle);
+      double& turn = state.turns[i];
+      turn += std::arg(energy_->strain(triangle, f).fz * std::polar(1.0, -turn));
+    }
+  });
+}
+
+SheetState SheetSolver::solved(const SheetHandles::Target& target,
+                               const std::stop_token& stop) const {
+  constexpr double kWay = 0.1, kTurn = 0.35;  // of a step, in units of the size and in radians
+  constexpr double kMostSteps = 24;
+  constexpr int kMost = 100;
+  SheetState state = at_rest();
+  const int steps =
+      static_cast<int>(std::clamp(std::ceil(std::max(target.farthest() / (kWay * domain_->size),
+                                                     target.largest_turn() / kTurn)),
+                                  1.0, kMostSteps));
+  for (int step = 1; step <= steps; ++step) {
+    throw_if_stopped(stop);
+    minimize(handles_.pull(target, static_cast<double>(step) / steps, 1), 1, state);
+  }
+  // Let go of the turns gently, or the picture springs back farther than it has to.
+  for (const double guide : {0.1, 0.01, 0.001}) {
+    throw_if_stopped(stop);
+    if (target.has_turns()) minimize(handles_.pull(target, 1, guide), 4, state);
+  }
+  const SheetPull pull = handles_.pull(target);
+  for (int i = 0; i < kMost; i += 5) {
+    throw_if_stopped(stop);
+    const VectorXc before = state.f;
+    minimize(pull, 5, state);
+    constexpr double kStill = 1e-12;  // of the size
+    if ((state.f - before).cwiseAbs().maxCoeff() <= kStill * domain_->size) break;
+  }
+  constexpr double kMet = 1e-9;  // of the size
+  if (settings_.exact) meet(pull, std::vector<char>(handles_.pins().size(), 1), kMet, state);
+  return state;
+}
+
+SheetState SheetSolver::followed(const SheetHandles::Target& target, SheetState before) const {
+  constexpr int kSteps = 2;
+  minimize(handles_.pull(target), kSteps, before);
+  return before;
+}
+
+/// The method of multipliers: the targets of marked pins are moved on by what the pins miss.
+void SheetSolver::meet(SheetPull pull, const std::vector<char>& met, double within,
+                       SheetState& state) const {
+  constexpr int kRounds = 12, kSteps = 4;
+  const Points wanted = pull.targets;
+  for (int round = 0; round < kRounds; ++round) {
+    double missed = 0;
+    for (size_t i = 0; i < handles_.pins().size(); ++i) {
+      if (met[i] == 0) continue;
+      const Complex off = wanted[i] - handles_.image(i, state.f);
+      missed = std::max(missed, std::abs(off));
+      pull.targets[i] += off;
+    }
+    if (missed <= within * domain_->size) return;
+    minimize(pull, kSteps, state);
+  }
+}
+
+VectorXc SheetSolver::relaxed(const SheetPull& pull, const std::vector<char>& met,
+                              VectorXc f) const {
+  constexpr int kMost = 20;
+  constexpr double kWithin = 1e-7;
+  SheetState state{std::move(f), {}};
+  minimize(pull, kMost, state);
+  meet(pull, met, kWithin, state);
+  return std::move(state.f);
+}
+
+SmoothMap SheetSolver::smooth(const VectorXc& f) const {
+  return {domain_->mesh, std::shared_ptr<const MeshLocator>(domain_, &domain_->locator), f,
+          domain_->gradients.fz(f), domain_->gradients.fzbar(f)};
+}
+
+}  // namespace holomorph

@@ -1,0 +1,67 @@
+// Finds the maps of an elastic sheet with handles.
+#pragma once
+
+#include <stop_token>
+
+#include "core/maps/deformer.h"
+#include "core/methods/sheet_handles.h"
+#include "core/sheet/smooth_map.h"
+
+namespace holomorph {
+
+/// A map, as it is found.
+struct SheetState {
+  VectorXc f;                 ///< at the mesh's vertices
+  std::vector<double> turns;  ///< of the pins: rotations of the picture there, unwrapped
+};
+
+/// A map that was found, as a value from which a draft or a motion can continue.
+struct SheetSolution : Solution {
+  std::shared_ptr<const SheetDomain> domain;
+  SheetState state;
+};
+
+/// What a rest determines. Threads: const functions may run at the same time; Newton steps take
+/// turns.
+class SheetSolver {
+ public:
+  /// Parts that `previous` has in common are shared; it may be null.
+  struct Settings {
+    double roundness = 1.5, pin_weight = 1e4;
+    bool exact = false;
+    bool operator==(const Settings&) const = default;
+  };
+  SheetSolver(const Rest& rest, const Settings& settings, const SheetSolver* previous);
+
+  const SheetDomain& domain() const { return *domain_; }
+  const std::shared_ptr<const SheetDomain>& shared_domain() const { return domain_; }
+  const SheetHandles& handles() const { return handles_; }
+  const SheetEnergy& energy() const { return *energy_; }
+  const Settings& settings() const { return settings_; }
+  SheetState at_rest() const;
+
+  /// The map of a target. It depends on nothing else: the handles go there from rest in many small
+  /// steps, and those of pins with turns also turn the picture. Throws Stopped.
+  SheetState solved(const SheetHandles::Target& target, const std::stop_token& stop) const;
+  /// A few steps from a map toward that of a target.
+  SheetState followed(const SheetHandles::Target& target, SheetState before) const;
+  /// The map near f that a pull leads to, after a few steps. The pins that are marked get to their
+  /// targets, to within 1e-7 of the size.
+  VectorXc relaxed(const SheetPull& pull, const std::vector<char>& met, VectorXc f) const;
+
+  /// The map at single points, not guarded yet.
+  SmoothMap smooth(const VectorXc& f) const;
+
+ private:
+  void minimize(const SheetPull& pull, int most, SheetState& state) const;
+  void meet(SheetPull pull, const std::vector<char>& met, double within, SheetState& state) const;
+
+  Settings settings_;
+  std::vector<BrushDab> stiffness_;
+  std::shared_ptr<const SheetDomain> domain_;
+  std::shared_ptr<const SheetEnergy> energy_;
+  SheetHandles handles_;
+  std::unique_ptr<SheetProgram> program_;
+};
+
+}  // namespace holomorph

@@ -1,0 +1,218 @@
+// Method `sheet`: what is far from the pins stays, frames stay rectangles, turned pins turn what is
+// around them, and motion between keys is proved.
+#include <algorithm>
+#include <cmath>
+
+#include "core/maps/deformer.h"
+#include "core/maps/distortion.h"
+#include "core/maps/injectivity.h"
+#include "core/maps/method.h"
+#include "core/mesh/mesher.h"
+#include "support/catch.h"
+#include "support/random_puppet.h"
+#include "support/seeds.h"
+#include "support/shapes.h"
+
+namespace holomorph::sheet_method_test {
+
+namespace {
+
+Rest rest_of(const Cage& cage, std::initializer_list<Complex> pins, int vertices = 700) {
+  Rest rest;
+  rest.cage = cage;
+  const auto mesh = std::make_shared<const Mesh>(domain_mesh(cage, {vertices}));
+  rest.mesh = mesh;
+  rest.samples = mesh->vertices;
+  for (const Complex& z : pins) rest.pins.push_back({z});
+  return rest;
+}
+
+Pose at_rest(const Rest& rest) {
+  Pose pose{rest.cage, {}};
+  for (const RestPin& pin : rest.pins) pose.pins.push_back({pin.position});
+  return pose;
+}
+
+std::unique_ptr<Deformer> prepared(const Rest& rest) {
+  return method_named("sheet").prepare(rest, nullptr);
+}
+
+double size_of(const Rest& rest) {
+  return box_of(rest.mesh->vertices).diagonal();
+}
+
+}  // namespace
+
+TEST_CASE("Sheet: beyond pins that hold, the picture stands still") {
+  // Six pins hold a bar whose end is pulled.
+  Rest rest = rest_of(polygon_cage(shapes::rectangle(1000, 100)), {{60, 50}}, 1500);
+  for (const double x : {300., 350., 400.})
+    for (const double y : {25., 75.}) rest.pins.push_back({Complex(x, y)});
+  Pose pose = at_rest(rest);
+  pose.pins[0].position += Complex(40, 130);
+  const SampledMap map = prepared(rest)->deform(pose, {});
+  REQUIRE(map.status == SampledMap::Status::certified);
+  const double half_width = 50;
+  double beyond = 0, moved = 0;
+  for (size_t v = 0; v < rest.samples.size(); ++v) {
+    const double off = std::abs(map.f[static_cast<Index>(v)] - rest.samples[v]);
+    moved = std::max(moved, off);
+    if (rest.samples[v].real() > 400 + 2 * half_width) beyond = std::max(beyond, off);
+  }
+  CHECK(moved > 100);
+  CHECK(beyond < 0.003 * size_of(rest));
+}
+
+TEST_CASE("Sheet: exact pins are met, others nearly") {
+  for (const unsigned seed : seeds_of("exact pins of sheets", {1, 2})) {
+    std::mt19937 random(seed);
+    Puppet puppet = random_puppet(random);
+    Pose pose = at_rest(puppet.rest);
+    for (PosePin& pin : pose.pins) pin.position += 0.06 * puppet.size * random_complex(random);
+    for (const bool exact : {false, true}) {
+      puppet.rest.parameters["exact"] = exact;
+      const auto deformer = prepared(puppet.rest);
+      REQUIRE(deformer->deform(pose, {}).status == SampledMap::Status::certified);
+      const auto points = deformer->point_map(pose);
+      for (size_t i = 0; i < pose.pins.size(); ++i) {
+        const double off =
+            std::abs(points->at(puppet.rest.pins[i].position).f - pose.pins[i].position);
+        CHECK(off < (exact ? 1e-8 : 0.01) * puppet.size);
+      }
+    }
+  }
+}
+
+TEST_CASE("Sheet: a frame that slides remains its rectangle, and a fixed one stays") {
+  for (const unsigned seed : seeds_of("frames", {1, 2}))
+    for (const Frame frame : {Frame::slide, Frame::fixed}) {
+      std::mt19937 random(seed);
+      const Points corners = shapes::rectangle(640, 400);
+      Rest rest = rest_of(polygon_cage(corners), {{200, 150}, {420, 250}, {100, 300}, {320, 40}});
+      rest.frame = frame;
+      Pose pose = at_rest(rest);
+      pose.pins[0].position += 90.0 * random_complex(random);
+      pose.pins[3].position += 60.0 * random_complex(random);
+      const auto deformer = prepared(rest);
+      const SampledMap map = deformer->deform(pose, {});
+      CHECK(map.status == SampledMap::Status::certified);
+      const auto points = deformer->point_map(pose);
+      double slid = 0;
+      for (size_t k = 0; k < 4; ++k)
+        for (int i = 0; i <= 50; ++i) {
+          const Complex a = corners[k], b = corners[(k + 1) % 4], z = a + (i / 50.0) * (b - a),
+                        w = points->at(z).f;
+          // All of a side's points stay on its line, not only vertices.
+          CHECK(std::abs(cross(b - a, w - a)) <= 1e-9 * std::norm(b - a));
+          if (i == 0) CHECK(std::abs(w - a) <= 1e-9);
+          slid = std::max(slid, std::abs(w - z));
+        }
+      if (frame == Frame::slide)
+        CHECK(slid > 0.5);
+      else
+        CHECK(slid <= 1e-9);
+    }
+}
+
+TEST_CASE("Sheet: a pin with a rotation turns what is around it, and other parts stay") {
+  // A head on a neck, beside a body that two pins hold.
+  const Points outline{{0, 0},     {500, 0},   {500, 200}, {330, 220}, {330, 300}, {400, 330},
+                       {400, 480}, {200, 480}, {200, 330}, {270, 300}, {270, 220}, {0, 200}};
+  Rest rest = rest_of(polygon_cage(outline), {{300, 400}, {100, 100}, {400, 100}}, 1200);
+  rest.pins[0].has_frame = true;
+  Pose pose = at_rest(rest);
+  pose.pins[0].angle = 0.8;
+  const auto deformer = prepared(rest);
+  REQUIRE(deformer->deform(pose, {}).status == SampledMap::Status::certified);
+  const auto points = deformer->point_map(pose);
+  for (const Complex z : {Complex(300, 400), {340, 400}, {260, 400}, {300, 440}, {300, 360}}) {
+    CHECK(std::abs(std::arg(points->at(z).fz) - 0.8) < 0.1);
+    CHECK(std::abs(points->at(z).f -
+                   (Complex(300, 400) + (z - Complex(300, 400)) * std::polar(1.0, 0.8))) < 5);
+  }
+  for (const Complex z : {Complex(20, 100), {480, 100}, {300, 30}, {100, 180}})
+    CHECK(std::abs(points->at(z).f - z) < 15);
+  // A scale, too.
+  pose.pins[0].angle = 0;
+  pose.pins[0].scale = 1.5;
+  const auto scaled = deformer->point_map(pose);
+  CHECK(std::abs(scaled->at({300, 400}).fz - 1.5) < 0.1);
+  // A small radius acts on a small part.
+  rest.pins[0].radius = 25;
+  const auto small = prepared(rest)->point_map(pose);
+  CHECK(std::abs(small->at({300, 400}).fz) > 1.3);
+  CHECK(std::abs(small->at({220, 460}).fz) < 1.15);
+}
+
+TEST_CASE("Sheet: turns choose among maps of one pose") {
+  Rest rest = rest_of(polygon_cage(shapes::rectangle(900, 80)), {{50, 40}, {450, 40}, {850, 40}});
+  const auto deformer = prepared(rest);
+  Pose pose = at_rest(rest);
+  for (const double turn : {0.0, 2 * kPi, -2 * kPi}) {
+    pose.pins[2].turn = turn;
+    pose.pins[1].turn = turn / 2;
+    const SampledMap map = deformer->deform(pose, {});
+    CHECK(map.status == SampledMap::Status::certified);
+    CHECK(std::abs(*map.turns[2] - *map.turns[0] - turn) < 0.5);
+    // The turns that were found lead to the same map.
+    Pose again = pose;
+    for (size_t i = 0; i < 3; ++i) again.pins[i].turn = map.turns[i];
+    CHECK((deformer->deform(again, {}).f - map.f).cwiseAbs().maxCoeff() < 1e-3 * size_of(rest));
+  }
+}
+
+TEST_CASE("Sheet: painted parts change less") {
+  const auto stretch = [](bool painted) {
+    Rest rest = rest_of(polygon_cage(shapes::rectangle(800, 120)), {{40, 60}, {760, 60}}, 900);
+    if (painted) rest.stiffness = {{{200, 60}, 150, 2}};
+    Pose pose = at_rest(rest);
+    pose.pins[1].position += 300;
+    const auto points = prepared(rest)->point_map(pose);
+    return std::abs(points->at({230, 60}).f - points->at({170, 60}).f) / 60;
+  };
+  CHECK(stretch(false) > 1.2);
+  CHECK(stretch(true) < 1.1);
+}
+
+TEST_CASE("Sheet: the motion between keys is proved, holds pins, and ends at the keys") {
+  for (const unsigned seed : seeds_of("motion of sheets", {1, 2, 3, 4})) {
+    std::mt19937 random(seed);
+    Puppet puppet = random_puppet(random);
+    const auto deformer = prepared(puppet.rest);
+    std::array<Pose, 2> poses{at_rest(puppet.rest), at_rest(puppet.rest)};
+    for (size_t i = 1; i < poses[1].pins.size(); ++i)  // pin 1 is held
+      poses[1].pins[i].position += 0.15 * puppet.size * random_complex(random);
+    poses[0].pins.back().position += 0.1 * puppet.size * random_complex(random);
+    std::vector<SampledMap> maps;
+    for (const Pose& pose : poses) maps.push_back(deformer->deform(pose, {}));
+    std::vector<MotionKey> keys;
+    for (size_t k = 0; k < 2; ++k) {
+      REQUIRE(maps[k].extremes);
+      keys.push_back({maps[k].solution, maps[k].extremes, &poses[k], &maps[k].f, 0, 1.0 * k});
+    }
+    const auto motion = deformer->motion();
+    REQUIRE(motion);
+    INFO("seed " << seed);
+    const Location held = locate_near(*puppet.rest.mesh, puppet.rest.pins[0].position);
+    for (const bool smooth : {false, true}) {
+      const auto interval = motion->interval(nullptr, keys[0], keys[1], nullptr, smooth);
+      REQUIRE(interval);
+      for (const double u : {0.1, 0.3, 0.5, 0.8}) {
+        const SampledMap at = interval->at(u, true);
+        CHECK(at.status == SampledMap::Status::certified);
+        REQUIRE(at.extremes);
+        CHECK(at.extremes->smallest > 0);
+        CHECK(flipped_triangles(*puppet.rest.mesh, at.f) == 0);
+        // The pin is a vertex of this mesh.
+        CHECK(std::abs(held.in(*puppet.rest.mesh, as_span(at.f)) - poses[0].pins[0].position) <=
+              1e-6 * puppet.size);
+      }
+      for (const size_t end : {size_t{0}, size_t{1}}) {
+        const SampledMap near = interval->at(end == 0 ? 1e-7 : 1 - 1e-7, false);
+        CHECK((near.f - maps[end].f).cwiseAbs().maxCoeff() <= 2e-3 * puppet.size);
+      }
+    }
+  }
+}
+
+}  // namespace holomorph::sheet_method_test
