@@ -3,6 +3,7 @@
 
 #include "core/geometry/polygon.h"
 #include "edit/edits/method_edits.h"
+#include "edit/frame.h"
 
 namespace holomorph {
 namespace {
@@ -57,7 +58,7 @@ void choose_method(Workspace& w, const std::string& id) {
   const Deformation before = w.shown.own();
   const Method& method = method_named(id);
   if (chosen_method(before).id == id || !w.require_keyframe_maps()) return;
-  Deformation after = with_chosen_method(before, id);
+  Deformation after = with_usual_frame(w, with_chosen_method(before, id));
   const LiveMap& map = w.map();
   if (pins_act_alone(chosen_method(before), before) && !pins_act_alone(method, before) &&
       map.has_map() && map.posed() && same_rest(*map.posed(), before))

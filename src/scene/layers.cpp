@@ -108,6 +108,12 @@ Scene with_layer_moved(Scene scene, size_t to) {
   return scene;
 }
 
+Scene without_original(Scene scene) {
+  if (scene.layers.size() == 1 && scene.background.fill == Background::Fill::original)
+    scene.background.fill = Background::Fill::transparent;
+  return scene;
+}
+
 Scene with_animation(Scene scene, const AnimationSettings& settings) {
   scene.animation = settings;
   return scene;

@@ -36,6 +36,9 @@ Scene without_layer(Scene scene);
 /// Moves the edited layer to another index, which must exist.
 Scene with_layer_moved(Scene scene, size_t to);
 
+/// The scene without the original behind a single layer.
+Scene without_original(Scene scene);
+
 /// Replaces the animation settings.
 Scene with_animation(Scene scene, const AnimationSettings& settings);
 

@@ -572,7 +572,7 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: not s["empty"], "the picture")
             self.screenshot(editor, "start")
             editor.click(600, 420)
-            editor.wait(lambda s: s["pins"] == 1 and s["method"] == "puppet", "the first pin")
+            editor.wait(lambda s: s["pins"] == 1 and s["method"] == "sheet", "the first pin")
             editor.wait(lambda s: "Hold it" in s["items"], "the first step")
             self.screenshot(editor, "hints-1")
             editor.press_item("Hold the rest")

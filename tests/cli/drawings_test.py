@@ -16,7 +16,7 @@ from case import SOURCE, Case, few_or_many, seed_of, timed
 
 ASSETS = os.path.join(SOURCE, "assets")
 SAMPLES = sorted(name[:-4] for name in os.listdir(ASSETS) if name.endswith(".svg"))
-METHODS = ("cage", "pins", "arap", "har_arap", "outline", "strokes", "angles", "harmonic", "mean_value", "bounded", "puppet")
+METHODS = ("cage", "pins", "arap", "har_arap", "outline", "strokes", "angles", "harmonic", "mean_value", "bounded", "puppet", "sheet")
 SVG = "{http://www.w3.org/2000/svg}"
 INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 
@@ -155,7 +155,7 @@ class Drawings(Case):
     def method_scene(self, method, file, w, h, by):
         cage = self.random_cage(w, h, by)
         scene = {"format": "holomorph", "version": 1, "image": {"file": file}, "method": {"id": method}, "cage": cage}
-        if method in ("pins", "arap", "har_arap", "bounded", "puppet"):
+        if method in ("pins", "arap", "har_arap", "bounded", "puppet", "sheet"):
             cage.pop("pose")
             scene["pins"] = [{"id": k + 1, "rest": [x * w, y * h],
                               "pose": [x * w + self.chance.uniform(-by, by), y * h + self.chance.uniform(-by, by)]}
@@ -193,7 +193,7 @@ class Drawings(Case):
                 f"<polyline points='{x - 90},{y} {x},{y + 90} {x + 99},{y - 20}'"])
                 + " fill='#%06x' fill-opacity='%.2f'/>" % (self.chance.randrange(1 << 24), self.chance.uniform(0.4, 1)))
         self.write("a.svg", f"<svg xmlns='http://www.w3.org/2000/svg' width='{w}' height='{h}'>{''.join(shapes)}</svg>")
-        for method in few_or_many(["cage", "arap", "angles", "puppet"], METHODS):
+        for method in few_or_many(["cage", "arap", "angles", "puppet", "sheet"], METHODS):
             with self.subTest(method):
                 average, far = self.compare(self.write("a.json", self.method_scene(method, "a.svg", w, h, 50)))
                 print(f"{method}: {average:.2f} on average, {100 * far:.3f} % differ much", file=sys.stderr)

@@ -3,6 +3,8 @@
 #include "core/geometry/polyline.h"
 #include "edit/actions/actions.h"
 #include "edit/edits/edits.h"
+#include "edit/frame.h"
+#include "edit/method_choice.h"
 #include "support/catch.h"
 #include "support/desk.h"
 #include "support/folder.h"
@@ -28,7 +30,7 @@ TEST_CASE("The first pin makes the cage and chooses Puppet, in one step") {
   const Deformation& deformation = workspace.shown.deformation();
   REQUIRE(deformation.has_cage());
   CHECK(workspace.document.history().index() == before + 1);
-  CHECK(deformation.method == "puppet");
+  CHECK(deformation.method == "sheet");
   CHECK(deformation.pins.size() == 1);
   CHECK(deformation.pins[0].rest == Complex(500, 600));
   CHECK(workspace.tools.active == ToolId::pin);
@@ -39,6 +41,48 @@ TEST_CASE("The first pin makes the cage and chooses Puppet, in one step") {
   run("edit.undo", workspace);
   CHECK_FALSE(workspace.shown.deformation().has_cage());
   CHECK(workspace.shown.deformation().pins.empty());
+}
+
+TEST_CASE("The first pin on a photograph makes a frame, with nothing behind it") {
+  TestWorkspace desk;
+  Image image(300, 200);
+  for (int r = 0; r < 200; ++r)
+    for (int c = 0; c < 300; ++c) image.at(c, r)[3] = 255;
+  const Folder folder;
+  const Path picture = folder.path / "photograph.png";
+  write_file(picture, encode_png(image));
+  desk.workspace.open(Document::open(picture));
+  Workspace& workspace = desk.workspace;
+  workspace.tools.active = ToolId::pin;
+  desk.click({150, 100});
+  CHECK(workspace.shown.deformation().method == "sheet");
+  CHECK(workspace.shown.deformation().frame == Frame::slide);
+  CHECK(can_choose_frame(workspace));
+  CHECK(workspace.document.scene().background.fill == Background::Fill::transparent);
+  CHECK(workspace.document.history().index() == 1);
+  // A moved pin does not move the frame.
+  for (int i = 0; i <= 5; ++i) {
+    const Complex at(150.0 + 8 * i, 100);
+    i == 0 ? desk.press(at) : desk.move(at);
+  }
+  desk.release({190, 100});
+  desk.settle();
+  const Mesh& mesh = *workspace.map().prepared()->mesh;
+  for (const int v : mesh.boundary) {
+    const Complex z = mesh.vertices[static_cast<size_t>(v)], w = workspace.map().map().f[v];
+    if (z.real() == 0 || z.real() == 300) CHECK(std::abs(w.real() - z.real()) < 1e-9);
+    if (z.imag() == 0 || z.imag() == 200) CHECK(std::abs(w.imag() - z.imag()) < 1e-9);
+  }
+  CHECK(std::abs(*workspace.map().pin_image(0) - Complex(190, 100)) < 2);
+  // Another method and back: a frame that was chosen stays.
+  choose_method(workspace, "pins");
+  choose_method(workspace, "sheet");
+  CHECK(workspace.shown.deformation().frame == Frame::slide);
+  run("edit.undo", workspace);
+  run("edit.undo", workspace);
+  run("edit.undo", workspace);
+  run("edit.undo", workspace);
+  CHECK_FALSE(workspace.shown.deformation().has_cage());
 }
 
 TEST_CASE("A press sets the first pin, and the same drag moves it") {
@@ -83,7 +127,7 @@ TEST_CASE("Pins that replace the cage hide its points; pins beside a bent cage d
   const Points square{{0, 0}, {100, 0}, {100, 100}, {0, 100}};
   Deformation rest = with_cage(Deformation{}, square);
   const Deformation puppet = with_pin(rest, {50, 50}, {50, 50}, {});
-  CHECK(puppet.method == "puppet");
+  CHECK(puppet.method == "sheet");
   CHECK(handles_of(puppet, EditMode::pose).size() == 1);
   CHECK(handles_of(puppet, EditMode::rest).size() == 5);
   rest.pose.segments[0][0] += Complex(10, 10);

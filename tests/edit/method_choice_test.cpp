@@ -16,8 +16,7 @@ TEST_CASE("Prevent folds is a switch of every method, except of those that never
     if (method.follows_others) continue;
     Deformation deformation;
     deformation.method = method.id;
-    const bool has_switch =
-        method.id != "puppet" && method.id != "sheet" && method.id != "angles";
+    const bool has_switch = method.id != "puppet" && method.id != "sheet" && method.id != "angles";
     CHECK(can_prevent_folds(method) == has_switch);
     CHECK_FALSE(prevents_folds(deformation));
     const Deformation on = with_folds_prevented(deformation, true);

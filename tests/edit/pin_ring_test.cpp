@@ -49,7 +49,7 @@ TEST_CASE("Ring: Ctrl changes the radius of the held disk in one step") {
       for (const char* method : {"puppet", "arap"}) {
         INFO(method << ", seed " << seed);
         RingDesk desk(method, tool);
-        const double before = held_radius(desk.deformation(), 1).value();
+        const double before = held_radius(desk.deformation(), 1, nullptr).value();
         const Complex at = desk.pin().pose;
         const size_t steps = desk.steps();
         desk.ctrl_drag(at + desk.ring() * side, at + (desk.ring() + by) * side);

@@ -99,7 +99,8 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
     const ImVec2 at = px(workspace, workspace.shown.deformation().pins[*gesture.ring].pose);
     const float radius = static_cast<float>(kRingRadius * workspace.display.handle_px);
     const Pin& pin = workspace.shown.deformation().pins[*gesture.ring];
-    if (const auto held = held_radius(workspace.shown.deformation(), *gesture.ring))
+    if (const auto held =
+            held_radius(workspace.shown.deformation(), *gesture.ring, workspace.map().prepared()))
       draw_held_disk(list, at, static_cast<float>(*held * pin.scale * workspace.layer_view().zoom),
                      style);
     draw_ring(list, at, radius, pin, gesture.ring_hovered, style);

@@ -161,7 +161,7 @@ void draw_place(Sketch& sketch) {
 void draw_method_picture(ImDrawList& list, const std::string& method, ImVec2 center, float scale,
                          ImU32 ink, ImU32 surface) {
   Sketch sketch(list, center, scale, ink, surface);
-  if (method == "puppet" || method == "arap")
+  if (method == "sheet" || method == "puppet" || method == "arap")
     draw_puppet(sketch, method == "arap");
   else if (method == "pins" || method == "har_arap")
     draw_elastic(sketch);

@@ -18,7 +18,7 @@
 namespace holomorph {
 namespace {
 
-constexpr const char* kCards[] = {"puppet", "pins", "cage"};
+constexpr const char* kCards[] = {"sheet", "pins", "cage"};
 
 /// Methods that a tool switches to, and the one behind the switch, are not in the list.
 bool is_listed(const Method& method) {

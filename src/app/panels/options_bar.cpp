@@ -16,6 +16,7 @@
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/curve_edits.h"
 #include "edit/edits/method_edits.h"
+#include "edit/frame.h"
 
 namespace holomorph {
 namespace {
@@ -123,7 +124,23 @@ void set_rotation(Workspace& workspace, const std::vector<Index>& pins, bool fix
   workspace.commit(fixed ? "Fix rotation" : "Free rotation", std::move(after));
 }
 
+void add_frame(OptionGroups& groups, Workspace& workspace) {
+  groups.push_back(
+      {"frame", [&workspace] {
+         inline_label("Frame",
+                      "Free: the sides of the picture follow the pins. Slide: they stay, and what "
+                      "lies on them may slide along them. Fixed: nothing on them moves");
+         const auto chosen = static_cast<size_t>(workspace.shown.deformation().frame);
+         const auto clicked = segmented("Frame", {"Free", "Slide", "Fixed"}, chosen);
+         if (!clicked || clicked == chosen) return;
+         Deformation after = workspace.shown.deformation();
+         after.frame = static_cast<Frame>(*clicked);
+         workspace.commit("Frame", std::move(after));
+       }});
+}
+
 void add_pin_groups(OptionGroups& groups, Workspace& workspace) {
+  if (can_choose_frame(workspace)) add_frame(groups, workspace);
   add_pin_fit(groups, workspace);
   const std::vector<Index> pins = selected_pins(workspace);
   groups.push_back({"rotation", [&workspace, pins] {

@@ -96,7 +96,7 @@ void pin_rows(Workspace& workspace, Index pin) {
         return scaled(s, pin, std::max(percent, 1.0) / 100 / s.pins[pin].scale);
       });
   ImGui::EndDisabled();
-  const auto held = held_radius(workspace.shown.deformation(), pin);
+  const auto held = held_radius(workspace.shown.deformation(), pin, workspace.map().prepared());
   ImGui::BeginDisabled(!held);
   double radius = held.value_or(0);
   apply_change(

@@ -40,7 +40,7 @@ void start_with_pins(Workspace& workspace) {
 }
 
 constexpr Choice kChoices[] = {
-    {"puppet", "Puppet", "Pins bend it. Sizes stay.", start_with_pins<MethodUse::puppet>},
+    {"sheet", "Puppet", "Pins bend it. Sizes stay.", start_with_pins<MethodUse::puppet>},
     {"pins", "Elastic", "Pins bend it. Angles stay.", start_with_pins<MethodUse::pins>},
     {"cage", "Cage", "Points around it bend it.",
      [](Workspace& workspace) { run("cage.from_picture", workspace); }},

@@ -149,6 +149,10 @@ class Deformer {
   /// when the method knows its map only at the samples.
   virtual std::unique_ptr<PointMap> point_map(const Pose&) const { return nullptr; }
 
+  /// The radius of the disk that a pin with a frame holds, if the pin has none of its own and the
+  /// method chooses one. None: held_radius(cage, pin).
+  virtual std::optional<double> usual_radius(size_t /*pin*/) const { return {}; }
+
   /// Motion between final maps of this deformer, with proofs; null if the method proves nothing.
   /// The first call precomputes. Threads: may run at the same time as `deform`.
   virtual std::shared_ptr<const ProvedMotion> motion() const { return nullptr; }

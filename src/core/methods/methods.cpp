@@ -36,7 +36,7 @@ const Method& method_named(const std::string& id) {
 const Method& usual_method(MethodUse use) {
   switch (use) {
     case MethodUse::puppet:
-      return method_named("puppet");
+      return method_named("sheet");
     case MethodUse::pins:
       return method_named("pins");
     case MethodUse::strokes:

@@ -262,7 +262,7 @@ std::unique_ptr<Deformer> make_puppet(const Rest& rest, const Deformer* previous
 Method puppet_method() {
   return {
       .id = "puppet",
-      .label = "Puppet",
+      .label = "Harmonic puppet",
       .summary = "Keeps sizes. Good for animals and people.",
       .hint =
           "Pins move parts of the picture. Sizes and shapes are kept as far as possible, and "

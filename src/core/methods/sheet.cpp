@@ -59,6 +59,10 @@ class SheetDeformer final : public Deformer {
         .released();
   }
 
+  std::optional<double> usual_radius(size_t pin) const override {
+    return handles().usual_radius(rest_.pins[pin].position);
+  }
+
   std::shared_ptr<const ProvedMotion> motion() const override {
     std::call_once(motion_once_, [this] { motion_ = sheet_motion(solver_, places_); });
     return motion_;
@@ -143,8 +147,8 @@ std::unique_ptr<Deformer> make_sheet(const Rest& rest, const Deformer* previous)
 Method sheet_method() {
   return {
       .id = "sheet",
-      .label = "Sheet",
-      .summary = "Bends where you pull. The rest stays.",
+      .label = "Puppet",
+      .summary = "Bends where you pull. Sizes stay.",
       .hint =
           "Pins move what is near them, and what is far away stays. Sizes and shapes are kept as "
           "far as possible, and nothing folds. Paint stiffness (B) on parts that should change "
@@ -155,7 +159,7 @@ Method sheet_method() {
                      toggle("exact", "Exact pins",
                             "Meet the pins exactly when the pointer is released"),
                      by_decades("pin_weight", "Pin weight",
-                                "Higher values meet the pins more closely", 1e4, 1e2, 1e6)},
+                                "Higher values meet the pins more closely", 1e5, 1e2, 1e7)},
       .uses_pins = true,
       .uses_strokes = true,
       .uses_stiffness = true,

@@ -12,12 +12,6 @@ namespace {
 /// The pulls of all of a disk and of all of the cage, in units of a pin's.
 constexpr double kDiskPull = 10, kCagePull = 100;
 
-/// Half of a limb's half width, so that a ring on a head turns the head, and the neck bends.
-double usual_radius(const SheetDomain& domain, Complex center) {
-  constexpr double kPart = 0.5, kMost = 0.08;  // of the half width and of the size
-  return std::min(kPart * domain.width.at(center), kMost * domain.size);
-}
-
 }  // namespace
 
 SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, double weight)
@@ -40,6 +34,12 @@ SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, double w
   if (rest.frame != Frame::free) add_frame(rest);
 }
 
+/// Half of a limb's half width, so that a ring on a head turns the head, and the neck bends.
+double SheetHandles::usual_radius(Complex pin) const {
+  constexpr double kPart = 0.5, kMost = 0.08;  // of the half width and of the size
+  return std::min(kPart * domain_.width.at(pin), kMost * domain_.size);
+}
+
 /// Vertices count by the area around them, and at the edge of the disk only in part, so that the
 /// pull hardly depends on the mesh.
 SheetHandles::Disk SheetHandles::disk_of(const Rest& rest, size_t row) const {
@@ -48,7 +48,7 @@ SheetHandles::Disk SheetHandles::disk_of(const Rest& rest, size_t row) const {
   const Location at = domain_.locator.near(center);
   const Triangle& own = mesh_->triangles[static_cast<size_t>(at.triangle)];
   const double edge = std::sqrt(2 * area_of(*mesh_, own)),
-               radius = pin.radius.value_or(usual_radius(domain_, center));
+               radius = pin.radius.value_or(usual_radius(center));
   std::map<int, double> shares;
   for (const Triangle& t : mesh_->triangles)
     for (const int v : t) {

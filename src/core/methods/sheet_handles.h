@@ -21,6 +21,9 @@ class SheetHandles {
   const std::vector<Location>& places() const { return places_; }
   const std::string& note() const { return handles_.note(); }
 
+  /// The radius of the disk around a pin without one.
+  double usual_radius(Complex pin) const;
+
   /// Where a pose takes the handles.
   struct Target {
     VectorXc displacements;       ///< of the rows

@@ -27,7 +27,7 @@ class SheetSolver {
  public:
   /// Parts that `previous` has in common are shared; it may be null.
   struct Settings {
-    double roundness = 1.5, pin_weight = 1e4;
+    double roundness = 1.5, pin_weight = 1e5;
     bool exact = false;
     bool operator==(const Settings&) const = default;
   };

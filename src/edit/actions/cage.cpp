@@ -37,11 +37,10 @@ void cage_from_picture(Workspace& w) {
 /// Makes the picture's rectangle the cage and selects all its points: the box around the selection
 /// then moves, scales and rotates the whole picture.
 void make_box(Workspace& w) {
-  Scene scene = with_deformation(w.document.scene(), with_box(w.shown.own(), *w.document.image()));
   // The original behind a picture fills the gaps of bent parts. Behind a moved picture, it would be
   // a second one.
-  if (scene.layers.size() == 1 && scene.background.fill == Background::Fill::original)
-    scene.background.fill = Background::Fill::transparent;
+  Scene scene = without_original(
+      with_deformation(w.document.scene(), with_box(w.shown.own(), *w.document.image())));
   if (!w.commit_layers("Place picture", std::move(scene))) return;
   w.mode = EditMode::pose;
   w.tools.active = ToolId::select;

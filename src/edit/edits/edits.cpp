@@ -269,10 +269,14 @@ Deformation scaled(Deformation deformation, Index pin, double factor) {
   return deformation;
 }
 
-std::optional<double> held_radius(const Deformation& deformation, Index pin) {
+std::optional<double> held_radius(const Deformation& deformation, Index pin,
+                                  const PreparedMap* prepared) {
   const Pin& p = deformation.pins[pin];
   const Method& method = followed_method(method_named(deformation.method), deformation.parameters);
   if (!p.angle || !method.holds_disks || !deformation.has_cage()) return {};
+  if (!p.radius && prepared && prepared->method == deformation.method &&
+      static_cast<size_t>(pin) < prepared->rest.pins.size())
+    if (const auto usual = prepared->deformer->usual_radius(static_cast<size_t>(pin))) return usual;
   return held_radius(deformation.rest, {p.rest, true, p.radius});
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scene/deformation.h"
+#include "scene/prepared_map.h"
 
 namespace holomorph {
 
@@ -98,8 +99,10 @@ Deformation turned(Deformation deformation, Index pin, double angle);
 /// rotation and scale.
 Deformation scaled(Deformation deformation, Index pin, double factor);
 /// The radius of the disk that a pin holds, at rest. None if the pin's rotation is free or the
-/// method holds no disks.
-std::optional<double> held_radius(const Deformation& deformation, Index pin);
+/// method holds no disks. The method of `prepared`, which may be null, chooses it for a pin that
+/// has no radius of its own.
+std::optional<double> held_radius(const Deformation& deformation, Index pin,
+                                  const PreparedMap* prepared);
 /// Sets the radius of the disk that a pin holds, within what its cage and files allow.
 Deformation with_held_radius(Deformation deformation, Index pin, double radius);
 

@@ -2,6 +2,7 @@
 // pin selects it.
 #include "core/geometry/polyline.h"
 #include "edit/actions/actions.h"
+#include "edit/frame.h"
 #include "edit/hold_rest.h"
 #include "edit/picture_cage.h"
 #include "edit/tools/handle_tool.h"
@@ -32,9 +33,10 @@ class PinTool final : public HandleTool {
     // At rest, the pin's pose is the image of the point under the map, so adding the pin moves
     // nothing.
     const Complex pose = workspace.at_rest() ? posed_at(workspace.map(), *rest) : input.position;
-    if (!workspace.commit("Add pin", with_pin(workspace.shown.deformation(), *rest, pose,
-                                              workspace.keyframe_images({&*rest, 1}))))
-      return;
+    Deformation pinned = with_pin(workspace.shown.deformation(), *rest, pose,
+                                  workspace.keyframe_images({&*rest, 1}));
+    if (pinned.method != method) pinned = with_usual_frame(workspace, std::move(pinned));
+    if (!workspace.commit("Add pin", std::move(pinned))) return;
     if (const std::string& now = workspace.shown.deformation().method; now != method)
       workspace.messages.say("Switched to " + method_named(now).label + ".");
     hold_last(input, workspace);
@@ -79,12 +81,13 @@ class PinTool final : public HandleTool {
                                    : "Click the largest part of the picture to set a pin.");
         return false;
       }
-      Deformation caged = with_cage(workspace.shown.own(), std::move(cage));
-      if (!workspace.commit(
-              "Add pin",
-              with_pin(std::move(caged), input.position, input.position, std::vector<Points>{}),
-              EditBase::document))
-        return false;
+      const Deformation caged = with_cage(workspace.shown.own(), std::move(cage));
+      Scene scene = with_deformation(
+          workspace.document.scene(),
+          with_usual_frame(workspace, with_pin(caged, input.position, input.position, {})));
+      // Inside a frame, nothing leaves a gap that the original would have to fill.
+      if (scene.deformation().frame != Frame::free) scene = without_original(std::move(scene));
+      if (!workspace.commit_layers("Add pin", std::move(scene))) return false;
       hold_last(input, workspace);
       if (!down_) drag_.cancel(workspace);  // making the cage took longer than the click
       return true;

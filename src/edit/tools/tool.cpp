@@ -108,7 +108,7 @@ void PinRing::hover(const Input& input, const Workspace& workspace) {
            std::abs(distance_to(input, workspace) - radius_px) < 0.6 * workspace.display.handle_px;
   };
   hovered_ = near_circle(kRingRadius * workspace.display.handle_px);
-  const auto held = held_radius(deformation, *pin_);
+  const auto held = held_radius(deformation, *pin_, workspace.map().prepared());
   on_disk_ = !hovered_ && held && input.mods.ctrl &&
              near_circle(*held * deformation.pins[*pin_].scale * workspace.layer_view().zoom);
   hovered_ = hovered_ || on_disk_;
@@ -139,7 +139,7 @@ void PinRing::decide(const Input& input, Workspace& workspace) {
   const Complex from_pin = start_px_ - center_px(workspace, *pin_),
                 way = (input.px - start_px_) / from_pin;
   const bool outward = std::abs(way.real()) > std::abs(way.imag());
-  if (outward && held_radius(start_deformation_, *pin_))
+  if (outward && held_radius(start_deformation_, *pin_, workspace.map().prepared()))
     gesture_ = Gesture::resize;
   else if (recording_.start(workspace, recorded_rotation(*pin_), input.now_ms))
     gesture_ = Gesture::record;
@@ -161,7 +161,8 @@ Deformation PinRing::rotated(const Input& input, const Workspace& workspace) con
 Deformation PinRing::resized(const Input& input, const Workspace& workspace) const {
   const double px_per_radius = workspace.layer_view().zoom * start_deformation_.pins[*pin_].scale;
   const double by = (distance_to(input, workspace) - start_distance_) / px_per_radius;
-  return with_held_radius(start_deformation_, *pin_, *held_radius(start_deformation_, *pin_) + by);
+  return with_held_radius(start_deformation_, *pin_,
+                          *held_radius(start_deformation_, *pin_, workspace.map().prepared()) + by);
 }
 
 void PinRing::follow(const Input& input, Workspace& workspace) {
@@ -188,7 +189,8 @@ std::string PinRing::hint(const Workspace& workspace) const {
   if ((active_ && gesture_ == Gesture::resize) || (!active_ && on_disk_))
     return "Drag to change the radius of the disk that the pin holds";
   if (active_) return "Hold Shift for steps of 15 degrees";
-  const bool holds = pin_ && held_radius(workspace.shown.deformation(), *pin_);
+  const bool holds =
+      pin_ && held_radius(workspace.shown.deformation(), *pin_, workspace.map().prepared());
   return std::string(
              "Drag the ring to rotate the picture around the pin; scroll on it to scale; ") +
          (holds ? "Ctrl-drag around the pin to record, outward to change the disk it holds"
