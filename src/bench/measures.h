@@ -119,6 +119,18 @@ double bounded_cold_ms(int runs);
 inline constexpr const char* kCompared = "compared on a folded bar, 800 mesh vertices: ";
 void compare_on_folded_bar(const std::function<void(const Result&)>& report);
 
+/// A body of radius 100 with eight limbs that are 60 wide at the body and 200 long.
+Points limbed_body();
+
+/// Figures for a drag of 300 frames of an elastic sheet with 10 pins, with the default drawn mesh.
+enum class SheetScene { limbs, photograph };
+struct SheetFigures {
+  double preparation_ms = 0, median_ms = 0, longest_ms = 0;
+  double final_ms = 0;  ///< the pin released half way
+  int unproved = 0;
+};
+SheetFigures sheet_drag(SheetScene scene);
+
 /// Figures for a drag of 120 frames of a puppet with 10 pins and 10k mesh vertices, with proof and
 /// evaluation on the mesh, for a basis with about this many vertices.
 struct PuppetFigures {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kLimbs = 8;
 
-/// A body of radius 100 with limbs that are 60 wide at the body and 200 long.
+}  // namespace
+
 Points limbed_body() {
   Points outline;
   for (int limb = 0; limb < kLimbs; ++limb) {
@@ -26,6 +27,8 @@ Points limbed_body() {
   }
   return outline;
 }
+
+namespace {
 
 /// The drag that all figures are about: one limb swings out and back.
 Complex dragged_by(double t) {

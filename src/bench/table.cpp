@@ -57,6 +57,21 @@ Benchmark puppet(int vertices, Goal median, Goal longest) {
           }};
 }
 
+Benchmark sheet(const std::string& what, SheetScene scene) {
+  const std::string name = "sheet: " + what + ", 10 pins, 8k mesh vertices";
+  return {{{name + ", preparation", "ms", 300},
+           {name + ", drag with proof, median of 300 frames", "ms", 8},
+           {name + ", the longest frame", "ms", 16},
+           {name + ", a final map", "ms", 300},
+           {name + ", maps without a proof", "", 0}},
+          1,
+          [scene](int) {
+            const SheetFigures figures = sheet_drag(scene);
+            return std::vector{figures.preparation_ms, figures.median_ms, figures.longest_ms,
+                               figures.final_ms, 1.0 * figures.unproved};
+          }};
+}
+
 Benchmark rigid(const std::string& size, int vertices, Goal median) {
   const std::string name = "rigid: drag, " + size + " mesh vertices";
   return {{{name + ", 10 pins, median of 60 frames", "ms", median},
@@ -177,6 +192,8 @@ std::vector<Benchmark> benchmarks() {
       one("bounded: cold L1 solve and proof, 150 vertices, 1000 samples, slowest of six maps", "ms",
           150, 3, [](int runs) { return bounded_solve_ms(150, 1000, runs); }),
       one("bounded: a folded pose from a cold start, end to end", "ms", {}, 9, bounded_cold_ms),
+      sheet("a body with eight limbs", SheetScene::limbs),
+      sheet("a photograph of 4000 x 3000 in its frame", SheetScene::photograph),
       puppet(50, 9, 14),
       puppet(100, 14, 20),
       is_long(puppet(225, 40, 60)),

@@ -1,4 +1,4 @@
-// The mesh on which sheets are solved: four triangles across limbs, and no tiny ones.
+// The mesh on which sheets are solved: five triangles across limbs, and no tiny ones.
 #include "scene/solving_mesh.h"
 
 #include <algorithm>
@@ -57,10 +57,9 @@ TEST_CASE("Solving mesh: every triangle has a vertex inside, and none is tiny") 
   }
 }
 
-TEST_CASE("Solving mesh: limbs are about four triangles across") {
+TEST_CASE("Solving mesh: limbs are about five triangles across") {
   const Mesh mesh = solving_mesh(polygon_cage(shapes::rectangle(1000, 40)));
-  // The middle of the limb is two edges from its sides.
-  const double expected = 1000 * 40 / (0.866 * 10 * 10);
+  const double edge = 8, expected = 1000 * 40 / (0.866 * edge * edge);
   CHECK(static_cast<double>(mesh.vertices.size()) > 0.6 * expected);
   CHECK(static_cast<double>(mesh.vertices.size()) < 1.8 * expected);
 }

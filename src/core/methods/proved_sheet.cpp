@@ -1,8 +1,5 @@
 #include "core/methods/proved_sheet.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace holomorph {
 
 ProvedSheet::ProvedSheet(const SheetSolver& solver, const VectorXc& f)
@@ -32,14 +29,11 @@ SampledMap ProvedSheet::sampled(std::span<const Location> places, bool derivativ
 
 Extremes ProvedSheet::extremes() const {
   constexpr int kDepth = 12;
-  Extremes extremes{0, HUGE_VAL, 0};
-  for (size_t i = 0; i < mesh_.triangles.size(); ++i) {
-    const StretchBounds own = map_->cubics(i).bounds(kDepth);
-    extremes.shear = std::max(extremes.shear, own.shear);
-    extremes.smallest = std::min(extremes.smallest, own.smallest);
-    extremes.largest = std::max(extremes.largest, own.largest);
-  }
-  return extremes;
+  StretchBounds attained, bounds;
+  for (size_t i = 0; i < mesh_.triangles.size(); ++i) attained.include(map_->cubics(i).attained());
+  for (size_t i = 0; i < mesh_.triangles.size(); ++i)
+    bounds.include(map_->cubics(i).bounds(kDepth, attained));
+  return {bounds.shear, bounds.smallest, bounds.largest};
 }
 
 }  // namespace holomorph

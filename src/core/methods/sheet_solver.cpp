@@ -59,50 +59,46 @@ SheetState SheetSolver::at_rest() const {
 }
 
 /// Newton steps, in which no rotation can change by half a turn.
-void SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state) const {
-  program_->minimize(pull, state.f, most, [&](const VectorXc& f) {
+void SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state,
+                           const std::stop_token& stop) const {
+  constexpr double kTolerance = 1e-12;  // the last step is still taken
+  const auto after = [&](const VectorXc& f) {
+    throw_if_stopped(stop);
     for (size_t i = 0; i < state.turns.size(); ++i) {
       const size_t triangle = static_cast<size_t>(handles_.places()[i].triangle);
       double& turn = state.turns[i];
       turn += std::arg(energy_->strain(triangle, f).fz * std::polar(1.0, -turn));
     }
-  });
+  };
+  program_->minimize(pull, state.f, most, after, kTolerance);
 }
 
 SheetState SheetSolver::solved(const SheetHandles::Target& target,
                                const std::stop_token& stop) const {
   constexpr double kWay = 0.1, kTurn = 0.35;  // of a step, in units of the size and in radians
   constexpr double kMostSteps = 24;
-  constexpr int kMost = 100;
   SheetState state = at_rest();
   const int steps =
       static_cast<int>(std::clamp(std::ceil(std::max(target.farthest() / (kWay * domain_->size),
                                                      target.largest_turn() / kTurn)),
                                   1.0, kMostSteps));
   for (int step = 1; step <= steps; ++step) {
-    throw_if_stopped(stop);
-    minimize(handles_.pull(target, static_cast<double>(step) / steps, 1), 1, state);
+    minimize(handles_.pull(target, static_cast<double>(step) / steps, 1), 1, state, stop);
   }
   // Let go of the turns gently, or the picture springs back farther than it has to.
   for (const double guide : {0.1, 0.01, 0.001}) {
-    throw_if_stopped(stop);
-    if (target.has_turns()) minimize(handles_.pull(target, 1, guide), 4, state);
+    if (target.has_turns()) minimize(handles_.pull(target, 1, guide), 4, state, stop);
   }
   const SheetPull pull = handles_.pull(target);
-  for (int i = 0; i < kMost; i += 5) {
-    throw_if_stopped(stop);
-    const VectorXc before = state.f;
-    minimize(pull, 5, state);
-    constexpr double kStill = 1e-12;  // of the size
-    if ((state.f - before).cwiseAbs().maxCoeff() <= kStill * domain_->size) break;
-  }
+  constexpr int kMost = 100;
+  minimize(pull, kMost, state, stop);
   constexpr double kMet = 1e-9;  // of the size
   if (settings_.exact) meet(pull, std::vector<char>(handles_.pins().size(), 1), kMet, state);
   return state;
 }
 
 SheetState SheetSolver::followed(const SheetHandles::Target& target, SheetState before) const {
-  constexpr int kSteps = 2;
+  constexpr int kSteps = 1;
   minimize(handles_.pull(target), kSteps, before);
   return before;
 }

@@ -53,7 +53,8 @@ class SheetSolver {
   SmoothMap smooth(const VectorXc& f) const;
 
  private:
-  void minimize(const SheetPull& pull, int most, SheetState& state) const;
+  void minimize(const SheetPull& pull, int most, SheetState& state,
+                const std::stop_token& stop = {}) const;
   void meet(SheetPull pull, const std::vector<char>& met, double within, SheetState& state) const;
 
   Settings settings_;

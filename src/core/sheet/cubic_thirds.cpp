@@ -90,6 +90,19 @@ StretchBounds bounds_of(const Slopes2& slopes) {
   return bounds;
 }
 
+/// What is attained at a piece's corners, where the coefficients are the derivatives.
+StretchBounds at_corners(const Slopes2& piece) {
+  StretchBounds attained;
+  for (size_t k = 0; k < 3; ++k) {
+    const double a = std::abs(piece.fz[k]), b = std::abs(piece.fzbar[k]);
+    attained.smallest = std::min(attained.smallest, a - b);
+    attained.largest = std::max(attained.largest, a + b);
+    attained.shear = std::max(attained.shear, b / a);
+    attained.least_determinant = std::min(attained.least_determinant, a * a - b * b);
+  }
+  return attained;
+}
+
 /// Which of a triangle's thirds contains a point with these barycentric coordinates, and its
 /// coordinates there.
 struct InThird {
@@ -158,34 +171,35 @@ PointMap::Value CubicThirds::at(const std::array<double, 3>& weights) const {
           value_at(slopes.fzbar, u, v, w)};
 }
 
-StretchBounds CubicThirds::bounds(int depth) const {
+void StretchBounds::include(const StretchBounds& other) {
+  smallest = std::min(smallest, other.smallest);
+  largest = std::max(largest, other.largest);
+  shear = std::max(shear, other.shear);
+  least_determinant = std::min(least_determinant, other.least_determinant);
+}
+
+StretchBounds CubicThirds::attained() const {
+  StretchBounds attained;
+  for (size_t k = 0; k < 3; ++k) attained.include(at_corners(slopes_of(thirds_[k], corners_of(k))));
+  return attained;
+}
+
+StretchBounds CubicThirds::bounds(int depth, const StretchBounds& elsewhere) const {
   std::vector<Slopes2> pieces;
   for (size_t k = 0; k < 3; ++k) pieces.push_back(slopes_of(thirds_[k], corners_of(k)));
-  StretchBounds bounds{kUnbounded, 0, 0, kUnbounded};
-  const auto include = [&](const StretchBounds& own) {
-    bounds.smallest = std::min(bounds.smallest, own.smallest);
-    bounds.largest = std::max(bounds.largest, own.largest);
-    bounds.shear = std::max(bounds.shear, own.shear);
-    bounds.least_determinant = std::min(bounds.least_determinant, own.least_determinant);
-  };
-  // A piece need not be divided where its corners attain its bounds within a tolerance.
+  StretchBounds bounds;
   constexpr double kTolerance = 0.01;
   for (int level = 0; !pieces.empty(); ++level) {
     std::vector<Slopes2> finer;
     for (const Slopes2& piece : pieces) {
       const StretchBounds own = bounds_of(piece);
-      double smallest = kUnbounded, largest = 0, shear = 0;
-      for (size_t k = 0; k < 3; ++k) {
-        const double a = std::abs(piece.fz[k]), b = std::abs(piece.fzbar[k]);
-        smallest = std::min(smallest, a - b);
-        largest = std::max(largest, a + b);
-        shear = std::max(shear, b / a);
-      }
+      StretchBounds known = elsewhere;
+      known.include(at_corners(piece));
       const bool is_tight =
-          own.least_determinant > 0 && own.smallest >= (1 - kTolerance) * smallest &&
-          own.largest <= (1 + kTolerance) * largest && own.shear <= shear + kTolerance;
+          own.least_determinant > 0 && own.smallest >= (1 - kTolerance) * known.smallest &&
+          own.largest <= (1 + kTolerance) * known.largest && own.shear <= known.shear + kTolerance;
       if (is_tight || level == depth) {
-        include(own);
+        bounds.include(own);
         continue;
       }
       const auto fz = halves(piece.fz), fzbar = halves(piece.fzbar);

@@ -4,6 +4,8 @@
 // the cubics: the derivative across an edge is linear along it, so that neighbors agree there.
 #pragma once
 
+#include <limits>
+
 #include "core/maps/deformer.h"
 #include "core/maps/triangle_cubic.h"
 
@@ -15,11 +17,17 @@ struct SmoothCorner {
   Complex along(Complex d) const { return fz * d + fzbar * std::conj(d); }
 };
 
-/// Proved bounds on a map's distortion in a region.
+/// A map's distortion in a region: what it attains there, or proved bounds. By default, that of no
+/// region.
 struct StretchBounds {
-  double smallest = 0, largest = 0;  ///< of the stretches: lower and upper bound
-  double shear = 0;                  ///< upper bound of |f_zbar / f_z|
-  double least_determinant = 0;      ///< lower bound of the Jacobian determinant
+  double smallest = kUnbounded, largest = 0;  ///< of the stretches
+  double shear = 0;                           ///< the largest |f_zbar / f_z|
+  double least_determinant = kUnbounded;
+
+  void include(const StretchBounds& other);
+
+ private:
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 };
 
 /// Third k has corner k + 1, corner k + 2 and the center, whose barycentric coordinates are u, v
@@ -31,9 +39,12 @@ class CubicThirds {
   /// The map at barycentric coordinates in the triangle, which may lie outside.
   PointMap::Value at(const std::array<double, 3>& weights) const;
 
+  /// What the map attains at the corners of the thirds.
+  StretchBounds attained() const;
   /// Bounds from the Bernstein coefficients of the derivatives, which enclose them. Thirds are
-  /// divided up to `depth` times where this may improve the bounds.
-  StretchBounds bounds(int depth) const;
+  /// divided up to `depth` times where the bounds are more than 1 % worse than what is attained
+  /// there and anywhere else.
+  StretchBounds bounds(int depth, const StretchBounds& elsewhere = {}) const;
   /// Whether the determinant is proved to be positive, whatever the rounding errors are.
   bool is_positive() const;
 
