@@ -38,7 +38,8 @@ Deformation limbs() {
 SheetFigures sheet_drag(SheetScene scene) {
   Deformation deformation = scene == SheetScene::photograph ? photograph() : limbs();
   deformation.method = "sheet";
-  const double size = box_of(vertices_of(deformation.rest)).diagonal();
+  const double size = box_of(vertices_of(deformation.rest)).diagonal(),
+               reach = scene == SheetScene::photograph ? 0.12 : 0.25;
   SheetFigures figures;
   const auto prepared = prepared_map(deformation, Precision::single, MeshOptions{});
   figures.preparation_ms = prepared->milliseconds;
@@ -58,9 +59,15 @@ SheetFigures sheet_drag(SheetScene scene) {
     if (frame != kFrames / 2) continue;
     Pose released = pose;
     for (size_t i = 0; i < released.pins.size(); ++i) released.pins[i].turn = map.turns[i];
-    const double begin = now_ms();
-    const SampledMap last = prepared->deformer->deform(released, {.derivatives = true});
-    figures.final_ms = now_ms() - begin;
+    std::vector<double> finals;
+    SampledMap last;
+    for (int run = 0; run < 3; ++run) {
+      const double begin = now_ms();
+      last = prepared->deformer->deform(released, {.derivatives = true});
+      finals.push_back(now_ms() - begin);
+    }
+    std::ranges::sort(finals);
+    figures.final_ms = finals[1];
     figures.unproved += last.status != SampledMap::Status::certified;
   }
   figures.longest_ms = *std::ranges::max_element(times);

@@ -51,8 +51,7 @@ TEST_CASE("Solving mesh: every triangle has a vertex inside, and none is tiny") 
     double shortest = 0.005 * size;
     const Points corners = vertices_of(cage);
     for (size_t i = 0; i < corners.size(); ++i)
-      shortest =
-          std::min(shortest, std::abs(corners[i] - corners[(i + 1) % corners.size()]));
+      shortest = std::min(shortest, std::abs(corners[i] - corners[(i + 1) % corners.size()]));
     CHECK(shortest_edge(mesh) > 0.1 * shortest);
   }
 }

@@ -136,10 +136,15 @@ std::optional<Similarity> SheetHandles::rigid(const Target& target) const {
   return rigid;
 }
 
-SheetPull SheetHandles::pull(const Target& target, double part, double guide) const {
-  SheetPull pull;
+Points SheetHandles::straight(const Target& target, double part) const {
+  Points at;
   for (size_t i = 0; i < stations().size(); ++i)
-    pull.targets.push_back(stations()[i] + part * target.displacements[static_cast<Index>(i)]);
+    at.push_back(stations()[i] + part * target.displacements[static_cast<Index>(i)]);
+  return at;
+}
+
+SheetPull SheetHandles::pull(const Target& target, Points at, double part, double guide) const {
+  SheetPull pull{std::move(at)};
   const auto turn_around = [&](size_t row, Complex by, double strength) {
     for (const auto& [v, weight] : guides_[row]) {
       const Complex arm = mesh_->vertices[static_cast<size_t>(v)] - stations()[row];

@@ -40,9 +40,13 @@ class SheetHandles {
   /// The rigid motion that takes all handles to their targets up to rounding, or nothing if none
   /// exists. At rest, the motion is exactly the identity.
   std::optional<Similarity> rigid(const Target& target) const;
-  /// The pull when the handles have gone this part of the way from rest to their targets. Pins with
-  /// turns also turn the disks around them, with this part of the pull of a frame.
-  SheetPull pull(const Target& target, double part = 1, double guide = 0) const;
+  /// Where the rows are after this part of the straight way from rest to their targets.
+  Points straight(const Target& target, double part) const;
+  /// The pull at a part of the way, where the rows are at these points. Pins with turns also turn
+  /// the disks around them, with this part of the pull of a frame.
+  SheetPull pull(const Target& target, Points at, double part, double guide) const;
+  /// The pull at the end.
+  SheetPull pull(const Target& target) const { return pull(target, straight(target, 1), 1, 0); }
   /// The image of a row.
   Complex image(size_t row, const VectorXc& f) const;
   Complex wanted(size_t row, const Target& target) const {

@@ -73,8 +73,49 @@ void SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state,
   program_->minimize(pull, state.f, most, after, kTolerance);
 }
 
+const ConformalPaths& SheetSolver::paths() const {
+  std::call_once(paths_once_, [this] {
+    paths_ = std::make_unique<const ConformalPaths>(domain_->mesh, handles_.holds().rows);
+  });
+  return *paths_;
+}
+
 SheetState SheetSolver::solved(const SheetHandles::Target& target,
                                const std::stop_token& stop) const {
+  constexpr double kFar = 0.7, kNear = 1.5;  // radians
+  const auto is_given = [](const auto& turn) { return turn.has_value(); };
+  const ConformalPaths::Path path = paths().path(target.displacements);
+  SheetHandles::Target turned = target;
+  bool agrees = true;
+  for (size_t i = 0; i < handles_.pins().size(); ++i) {
+    const double turn = ConformalPaths::rotation(path, handles_.places()[i].triangle);
+    agrees = agrees && std::abs(turn - target.turns[i].value_or(turn)) < kNear;
+    if (!turned.turns[i]) turned.turns[i] = turn;
+  }
+  const double largest = handles_.pins().empty() ? path.end.logarithm.imag().cwiseAbs().maxCoeff()
+                                                 : turned.largest_turn();
+  SheetState state;
+  if (largest < kFar || !agrees) {
+    state = reached(target, nullptr, stop);
+  } else {
+    state = reached(turned, &path, stop);
+    if (std::ranges::none_of(target.turns, is_given)) {
+      SheetState straight = reached(target, nullptr, stop);
+      const SheetPull pull = handles_.pull(target);
+      if (program_->value(straight.f, pull) < program_->value(state.f, pull))
+        state = std::move(straight);
+    }
+  }
+  constexpr double kMet = 1e-9;  // of the size
+  if (settings_.exact)
+    meet(handles_.pull(target), std::vector<char>(handles_.pins().size(), 1), kMet, state);
+  return state;
+}
+
+/// Follows a conformal path, or straight ways.
+SheetState SheetSolver::reached(const SheetHandles::Target& target,
+                                const ConformalPaths::Path* path,
+                                const std::stop_token& stop) const {
   constexpr double kWay = 0.1, kTurn = 0.35;  // of a step, in units of the size and in radians
   constexpr double kMostSteps = 24;
   SheetState state = at_rest();
@@ -83,17 +124,22 @@ SheetState SheetSolver::solved(const SheetHandles::Target& target,
                                                      target.largest_turn() / kTurn)),
                                   1.0, kMostSteps));
   for (int step = 1; step <= steps; ++step) {
-    minimize(handles_.pull(target, static_cast<double>(step) / steps, 1), 1, state, stop);
+    const double part = static_cast<double>(step) / steps;
+    Points at = handles_.straight(target, part);
+    if (path) {
+      const VectorXc f = paths().at(*path, part);
+      for (size_t row = 0; row < at.size(); ++row)
+        at[row] = handles_.image(row, f) +
+                  part * (handles_.wanted(row, target) - handles_.image(row, path->end.f));
+    }
+    minimize(handles_.pull(target, std::move(at), part, 1), 1, state, stop);
   }
   // Let go of the turns gently, or the picture springs back farther than it has to.
-  for (const double guide : {0.1, 0.01, 0.001}) {
-    if (target.has_turns()) minimize(handles_.pull(target, 1, guide), 4, state, stop);
-  }
-  const SheetPull pull = handles_.pull(target);
+  if (target.has_turns())
+    for (const double guide : {0.1, 0.01, 0.001})
+      minimize(handles_.pull(target, handles_.straight(target, 1), 1, guide), 4, state, stop);
   constexpr int kMost = 100;
-  minimize(pull, kMost, state, stop);
-  constexpr double kMet = 1e-9;  // of the size
-  if (settings_.exact) meet(pull, std::vector<char>(handles_.pins().size(), 1), kMet, state);
+  minimize(handles_.pull(target), kMost, state, stop);
   return state;
 }
 

@@ -1,10 +1,12 @@
 // Finds the maps of an elastic sheet with handles.
 #pragma once
 
+#include <mutex>
 #include <stop_token>
 
 #include "core/maps/deformer.h"
 #include "core/methods/sheet_handles.h"
+#include "core/sheet/conformal_path.h"
 #include "core/sheet/smooth_map.h"
 
 namespace holomorph {
@@ -41,7 +43,9 @@ class SheetSolver {
   SheetState at_rest() const;
 
   /// The map of a target. It depends on nothing else: the handles go there from rest in many small
-  /// steps, and those of pins with turns also turn the picture. Throws Stopped.
+  /// steps, and pins with turns also turn the picture. If they are to turn far, they follow a
+  /// conformal path. If no pin has a turn, the map is the better one of those with and without such
+  /// a path. Throws Stopped.
   SheetState solved(const SheetHandles::Target& target, const std::stop_token& stop) const;
   /// A few steps from a map toward that of a target.
   SheetState followed(const SheetHandles::Target& target, SheetState before) const;
@@ -53,6 +57,9 @@ class SheetSolver {
   SmoothMap smooth(const VectorXc& f) const;
 
  private:
+  SheetState reached(const SheetHandles::Target& target, const ConformalPaths::Path* path,
+                     const std::stop_token& stop) const;
+  const ConformalPaths& paths() const;
   void minimize(const SheetPull& pull, int most, SheetState& state,
                 const std::stop_token& stop = {}) const;
   void meet(SheetPull pull, const std::vector<char>& met, double within, SheetState& state) const;
@@ -63,6 +70,8 @@ class SheetSolver {
   std::shared_ptr<const SheetEnergy> energy_;
   SheetHandles handles_;
   std::unique_ptr<SheetProgram> program_;
+  mutable std::once_flag paths_once_;
+  mutable std::unique_ptr<const ConformalPaths> paths_;
 };
 
 }  // namespace holomorph

@@ -144,6 +144,53 @@ TEST_CASE("Sheet: a pin with a rotation turns what is around it, and other parts
   CHECK(std::abs(small->at({220, 460}).fz) < 1.15);
 }
 
+TEST_CASE("Sheet: pins along an arc, or a posed cage, curl a bar without crushing it") {
+  for (const unsigned seed : seeds_of("curled bars", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    // Up to a three-quarter turn, in either direction.
+    const double angle = (0.55 + 0.2 * random_complex(random).real()) * 2 * kPi *
+                         (random() % 2 == 0 ? 1 : -1),
+                 radius = 500 / angle;
+    const auto curled = [&](Complex z) {
+      const double along = (z.real() - 300) / radius;
+      return Complex(300, 52 + radius) +
+             std::polar(1.0, along) * Complex(0, z.imag() - 52 - radius);
+    };
+    const Points corners = shapes::rectangle(600, 104);
+    for (const bool by_pins : {true, false}) {
+      Cage cage = polygon_cage(corners);
+      if (!by_pins)  // long edges would be straight again
+        cage = polygon_cage(Points{{0, 0},
+                                   {100, 0},
+                                   {200, 0},
+                                   {300, 0},
+                                   {400, 0},
+                                   {500, 0},
+                                   {600, 0},
+                                   {600, 104},
+                                   {500, 104},
+                                   {400, 104},
+                                   {300, 104},
+                                   {200, 104},
+                                   {100, 104},
+                                   {0, 104}});
+      Rest rest = rest_of(cage, {}, 900);
+      for (int k = 0; by_pins && k < 6; ++k) rest.pins.push_back({Complex(50 + 100 * k, 52)});
+      Pose pose = at_rest(rest);
+      for (PosePin& pin : pose.pins) pin.position = curled(pin.position);
+      for (Points& segment : pose.cage.segments)
+        for (Complex& z : segment) z = curled(z);
+      const SampledMap map = prepared(rest)->deform(pose, {});
+      INFO("seed " << seed << ", angle " << angle << ", pins " << by_pins);
+      CHECK(map.status == SampledMap::Status::certified);
+      const Injectivity injectivity = injectivity_of(*rest.mesh, map.f);
+      CHECK_FALSE(injectivity.folds());
+      CHECK_FALSE(injectivity.crossing);
+      CHECK(isometric_energy_of(*rest.mesh, map.f) < 3);
+    }
+  }
+}
+
 TEST_CASE("Sheet: turns choose among maps of one pose") {
   Rest rest = rest_of(polygon_cage(shapes::rectangle(900, 80)), {{50, 40}, {450, 40}, {850, 40}});
   const auto deformer = prepared(rest);

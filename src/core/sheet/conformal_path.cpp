@@ -1,0 +1,71 @@
+// The unknowns are displacements, which are 0 at rest.
+#include "core/sheet/conformal_path.h"
+
+#include <Eigen/SparseCholesky>
+
+#include "core/error.h"
+
+namespace holomorph {
+
+namespace {
+
+VectorXc at_rest(const Mesh& mesh) {
+  return Eigen::Map<const VectorXc>(mesh.vertices.data(), static_cast<Index>(mesh.vertices.size()));
+}
+
+}  // namespace
+
+struct ConformalPaths::Factor {
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> solver;
+};
+
+ConformalPaths::ConformalPaths(std::shared_ptr<const Mesh> mesh, std::vector<SheetRow> rows)
+    : mesh_(std::move(mesh)),
+      rows_(std::move(rows)),
+      between_(mesh_),
+      rest_(between_.shape_of(at_rest(*mesh_), 0)),
+      factor_(std::make_unique<Factor>()) {
+  // Adding a small part of the Dirichlet energy makes the matrix definite.
+  constexpr double kDirichlet = 1e-3, kRows = 1e3;
+  std::vector<Eigen::Triplet<Complex>> entries;
+  for (const Triangle& t : mesh_->triangles) {
+    const double area = area_of(*mesh_, t);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        const Complex ea = opposite_side(*mesh_, t, a), eb = opposite_side(*mesh_, t, b);
+        entries.emplace_back(
+            t[a], t[b], std::conj(ea) * eb / (16 * area) + kDirichlet * dot(ea, eb) / (8 * area));
+      }
+  }
+  for (const SheetRow& row : rows_)
+    for (const auto& [v, a] : row.terms)
+      for (const auto& [w, b] : row.terms) entries.emplace_back(v, w, kRows * a * b);
+  const Index n = static_cast<Index>(mesh_->vertices.size());
+  Eigen::SparseMatrix<Complex> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  for (SheetRow& row : rows_) row.weight = kRows;
+  factor_->solver.compute(matrix);
+  check(factor_->solver.info() == Eigen::Success, "sheet: the conformal energy is definite");
+}
+
+ConformalPaths::~ConformalPaths() = default;
+
+ConformalPaths::Path ConformalPaths::path(const VectorXc& displacements) const {
+  VectorXc pull = VectorXc::Zero(static_cast<Index>(mesh_->vertices.size()));
+  for (size_t r = 0; r < rows_.size(); ++r)
+    for (const auto& [v, weight] : rows_[r].terms)
+      pull[v] += rows_[r].weight * weight * displacements[static_cast<Index>(r)];
+  const VectorXc f = at_rest(*mesh_) + factor_->solver.solve(pull);
+  Inbetween::Shape end = between_.shape_of(f, 0);
+  const double turns = std::round(end.logarithm.imag().mean() / (2 * kPi));
+  if (turns != 0) end = between_.shape_of(f, -static_cast<int>(turns));
+  return {std::move(end), least_moving_point(*mesh_, rest_.f, f)};
+}
+
+VectorXc ConformalPaths::at(const Path& path, double part) const {
+  VectorXc f;
+  between_.blend({.from = rest_, .to = path.end, .still = &path.still}, part, f);
+  return f;
+}
+
+}  // namespace holomorph
