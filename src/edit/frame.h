@@ -14,4 +14,13 @@ Deformation with_usual_frame(const Workspace& workspace, Deformation deformation
 /// Whether the edited layer has a frame to choose.
 bool can_choose_frame(const Workspace& workspace);
 
+/// What is farther than a radius from all pins is held. The radius is kept within the picture.
+Deformation held_beyond(Deformation deformation, double radius);
+/// Whether the edited layer has a frame, pins, and a rest of the picture that is not held yet.
+bool can_hold_beyond(const Workspace& workspace);
+/// Holds what is far from the pins, in one step.
+void hold_beyond(Workspace& workspace);
+/// Lets it go again, in one step.
+void let_go(Workspace& workspace);
+
 }  // namespace holomorph

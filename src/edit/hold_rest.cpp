@@ -7,6 +7,7 @@
 
 #include "core/mesh/edge_distances.h"
 #include "edit/edits/edits.h"
+#include "edit/frame.h"
 #include "edit/picking.h"
 
 namespace holomorph {
@@ -58,11 +59,16 @@ Points far_points(const Mesh& mesh, std::span<const Complex> from, size_t most) 
 
 bool can_hold_rest(const Workspace& w) {
   const Deformation& deformation = w.shown.deformation();
+  if (can_choose_frame(w)) return can_hold_beyond(w) && w.mode == EditMode::pose;
   return deformation.has_cage() && deformation.pins.size() == 1 && w.map().has_map() &&
          w.mode == EditMode::pose && method_named(deformation.method).uses_pins;
 }
 
 void hold_rest(Workspace& w) {
+  if (can_choose_frame(w)) {
+    if (w.require_open_layer()) hold_beyond(w);
+    return;
+  }
   if (!w.require_open_layer() || !w.require_keyframe_maps()) return;
   const Deformation before = w.shown.deformation();
   const Points far = far_points(*w.map().prepared()->mesh, std::vector{before.pins[0].rest});

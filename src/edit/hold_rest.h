@@ -11,9 +11,11 @@ namespace holomorph {
 /// the mesh per point.
 Points far_points(const Mesh& mesh, std::span<const Complex> from, size_t most = 6);
 
-/// Whether there is a single pin, which moves the whole picture.
+/// Whether there is a single pin, which moves the whole picture, or a photograph of which nothing
+/// is held yet.
 bool can_hold_rest(const Workspace& workspace);
-/// Sets pins at the far points, where they are displayed, in one step.
+/// Sets pins at the far points, where they are displayed, in one step. In a photograph, holds what
+/// is far from the pins instead (hold_beyond).
 void hold_rest(Workspace& workspace);
 
 }  // namespace holomorph

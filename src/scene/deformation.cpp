@@ -25,6 +25,7 @@ Rest rest_of(const Deformation& deformation, Precision precision) {
   rest.outline = deformation.outline;
   rest.stiffness = deformation.stiffness;
   rest.frame = deformation.frame;
+  rest.held_beyond = deformation.held_beyond;
   rest.parameters = deformation.parameters;
   rest.other_parameters = deformation.other_parameters;
   rest.precision = precision;

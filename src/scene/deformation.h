@@ -80,9 +80,10 @@ struct Deformation {
   std::vector<Stroke> strokes = {};
   Points outline = {};  ///< closed; the target shape of the cage for method `outline`
   std::optional<SurfaceReference> surface = {};
-  std::vector<Corner> corners = {};      ///< sorted by vertex
-  std::vector<BrushDab> stiffness = {};  ///< painted dabs, for methods that use them
-  Frame frame = Frame::free;             ///< what the sides of the cage may do
+  std::vector<Corner> corners = {};        ///< sorted by vertex
+  std::vector<BrushDab> stiffness = {};    ///< painted dabs, for methods that use them
+  Frame frame = Frame::free;               ///< what the sides of the cage may do
+  std::optional<double> held_beyond = {};  ///< Rest::held_beyond, at least kMinPinRadius
   /// Sorted by time. Keyframes whose poses do not fit the handles are kept but do not play.
   std::vector<Keyframe> keyframes = {};
   std::string method = usual_method(MethodUse::cage).id;

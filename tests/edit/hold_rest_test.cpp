@@ -73,4 +73,49 @@ TEST_CASE("Hold the rest is offered with a single pin, and moves nothing") {
   CHECK((w.map().map().f - before).cwiseAbs().maxCoeff() < 0.5);
 }
 
+TEST_CASE("In a photograph, the rest is what is beyond a circle, which can be dragged") {
+  TestWorkspace desk(Points{{0, 0}, {600, 0}, {600, 400}, {0, 400}});
+  Workspace& w = desk.workspace;
+  Deformation deformation = desk.deformation();
+  deformation.method = "sheet";
+  deformation.frame = Frame::slide;
+  deformation.pins = {{{300, 200}, {300, 200}, {}, {}}};
+  w.commit("Photograph", deformation);
+  desk.settle();
+  REQUIRE(can_hold_rest(w));
+  run("edit.hold_rest", w);
+  REQUIRE(desk.deformation().held_beyond);
+  CHECK_FALSE(can_hold_rest(w));
+  const double before = *desk.deformation().held_beyond;
+  // A moved pin moves nothing beyond it.
+  deformation = desk.deformation();
+  deformation.pins[0].pose += 40;
+  w.commit("Move", deformation);
+  desk.settle();
+  const SampledMap& map = w.map().map();
+  CHECK(map.status == SampledMap::Status::certified);
+  const Mesh& mesh = *w.map().prepared()->mesh;
+  const double edge = 0.04 * std::hypot(600, 400);
+  double moved = 0;
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double off = std::abs(map.f[static_cast<Index>(v)] - mesh.vertices[v]);
+    moved = std::max(moved, off);
+    if (std::abs(mesh.vertices[v] - Complex(300, 200)) > before + 2 * edge) CHECK(off < 1e-9);
+  }
+  CHECK(moved > 35);
+  // The circle is around the pin at rest.
+  w.tools.active = ToolId::pin;
+  const Complex on = Complex(300, 200) + std::polar(before, 2.0),
+                to = Complex(300, 200) + std::polar(before + 50, 2.0);
+  desk.press(on);
+  for (int i = 1; i <= 5; ++i) desk.move(on + (to - on) * (i / 5.0));
+  desk.release(to);
+  CHECK(*desk.deformation().held_beyond == Approx(before + 50).margin(1));
+  CHECK(desk.deformation().pins.size() == 1);
+  run("edit.let_go", w);
+  CHECK_FALSE(desk.deformation().held_beyond);
+  run("edit.undo", w);
+  CHECK(*desk.deformation().held_beyond == Approx(before + 50).margin(1));
+}
+
 }  // namespace holomorph::hold_rest_test

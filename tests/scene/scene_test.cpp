@@ -113,6 +113,14 @@ TEST_CASE("A frame is kept, and files that have one are not for older programs")
     CHECK_THAT(written, Contains("\"version\": 4") && Contains("\"frame\": "));
     CHECK(scene_from_json(written, "again") == scene);
   }
+  change_layer(scene, [](Layer& layer) {
+    layer.deformation.frame = Frame::free;
+    layer.deformation.held_beyond = 12.5;
+  });
+  CHECK_THAT(json_of(scene), Contains("\"version\": 4") && Contains("\"held_beyond\": 12.5"));
+  CHECK(scene_from_json(json_of(scene), "again") == scene);
+  CHECK_THAT(complaint(replaced(json_of(scene), "12.5", "-1")), Contains("/held_beyond"));
+  change_layer(scene, [](Layer& layer) { layer.deformation.frame = Frame::fixed; });
   CHECK_THAT(complaint(replaced(json_of(scene), "\"fixed\"", "\"golden\"")),
              Contains("/frame") && Contains("slide"));
 }

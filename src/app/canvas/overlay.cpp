@@ -9,6 +9,7 @@
 #include "app/canvas/marks.h"
 #include "edit/content.h"
 #include "edit/edits/curve_edits.h"
+#include "edit/frame.h"
 
 namespace holomorph {
 
@@ -104,6 +105,38 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
       draw_held_disk(list, at, static_cast<float>(*held * pin.scale * workspace.layer_view().zoom),
                      style);
     draw_ring(list, at, radius, pin, gesture.ring_hovered, style);
+  }
+}
+
+/// Draws the edge of what pins may move: arcs around them.
+void draw_held_region(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
+  const Deformation& deformation = workspace.shown.deformation();
+  if (!deformation.held_beyond || !can_choose_frame(workspace) ||
+      workspace.tools.active != ToolId::pin)
+    return;
+  constexpr int kPoints = 96;
+  const double radius = *deformation.held_beyond;
+  for (const Pin& pin : deformation.pins) {
+    std::vector<ImVec2> arc;
+    const auto end_arc = [&] {
+      if (arc.size() > 1) {
+        list.AddPolyline(arc.data(), static_cast<int>(arc.size()), style.colors.outline, 0,
+                         3 * static_cast<float>(style.scale));
+        draw_dashes(list, arc, style.colors.pin, style);
+      }
+      arc.clear();
+    };
+    for (int k = 0; k <= kPoints; ++k) {
+      const Complex z = pin.rest + std::polar(radius, 2 * kPi * k / kPoints);
+      const bool inside_another = std::ranges::any_of(deformation.pins, [&](const Pin& other) {
+        return std::abs(other.rest - z) < 0.999 * radius;
+      });
+      if (inside_another)
+        end_arc();
+      else
+        arc.push_back(px(workspace, z));
+    }
+    end_arc();
   }
 }
 
@@ -386,6 +419,7 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
     draw_curves(list, workspace, look, style);
     draw_folds(list, workspace, style);
     draw_map_marks(list, workspace, style);
+    draw_held_region(list, workspace, style);
     draw_handles(list, workspace, gesture, look, style);
   } else if (workspace.display.show_cage && gesture.in_cage) {
     const Deformation& deformation = workspace.shown.deformation();

@@ -346,6 +346,10 @@ Options options_of(Workspace& workspace) {
         groups.push_back({"hold", [&workspace] {
                             action_option("edit.hold_rest", "Hold the rest", workspace);
                           }});
+      if (workspace.actions.named("edit.let_go").enabled(workspace))
+        groups.push_back({"let go", [&workspace] {
+                            action_option("edit.let_go", "Let the rest go", workspace);
+                          }});
       add_pin_groups(groups, workspace);
       groups.push_back({"mesh", [&workspace] { action_option("view.mesh", "Mesh", workspace); }});
       reset();

@@ -66,6 +66,8 @@ struct Rest {
   std::vector<Index> corners = {};       ///< cage vertices with angles, in order; empty: all
   std::vector<BrushDab> stiffness = {};  ///< stiffness of the picture; empty: uniform
   Frame frame = Frame::free;
+  /// In methods with frames: what is farther than this from all pins stays; none: nothing does.
+  std::optional<double> held_beyond = {};
   Points samples;  ///< where the map is evaluated, inside or on the cage
   /// Where f_z and f_zbar are evaluated, one point per sample. If empty, they are evaluated at
   /// `samples`. Methods whose derivatives are finite on the boundary always evaluate them at

@@ -92,7 +92,7 @@ Rest used_by(const Method& method, Rest rest) {
   if (!method.uses_outline) rest.outline.clear();
   if (!method.uses_corners) rest.corners.clear();
   if (!method.uses_stiffness) rest.stiffness.clear();
-  if (!method.uses_frame) rest.frame = Frame::free;
+  if (!method.uses_frame) rest.frame = Frame::free, rest.held_beyond.reset();
   const bool holds_disks = followed_method(method, rest.parameters).holds_disks;
   for (RestPin& pin : rest.pins)
     if (!holds_disks || !pin.has_frame) pin.radius.reset();

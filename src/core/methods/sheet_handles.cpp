@@ -32,6 +32,7 @@ SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, double w
     if (rest.pins[pins()[row]].has_frame) framed_.push_back(row);
   }
   if (rest.frame != Frame::free) add_frame(rest);
+  if (rest.held_beyond && !pins().empty()) hold_beyond(*rest.held_beyond);
 }
 
 /// Half of a limb's half width, so that a ring on a head turns the head, and the neck bends.
@@ -86,6 +87,15 @@ void SheetHandles::add_frame(const Rest& rest) {
       y = y || !slides || way.real() != 0;
     }
   }
+}
+
+void SheetHandles::hold_beyond(double radius) {
+  holds_.fixed.resize(mesh_->vertices.size());
+  for (size_t v = 0; v < mesh_->vertices.size(); ++v)
+    if (std::ranges::all_of(std::span(stations()).first(pins().size()), [&](const Complex& pin) {
+          return std::abs(mesh_->vertices[v] - pin) > radius;
+        }))
+      holds_.fixed[v] = {true, true};
 }
 
 double SheetHandles::Target::farthest() const {

@@ -59,6 +59,7 @@ class SheetHandles {
   const Points& stations() const { return handles_.isometric().stations; }
   Disk disk_of(const Rest& rest, size_t row) const;
   void add_frame(const Rest& rest);
+  void hold_beyond(double radius);
 
   PuppetHandles handles_;
   std::shared_ptr<const Mesh> mesh_;

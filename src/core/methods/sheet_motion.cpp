@@ -12,13 +12,13 @@ namespace holomorph {
 namespace {
 
 /// What is shared by all intervals of a deformer.
-struct Setting {
+struct SheetSetting {
   std::shared_ptr<const SheetSolver> solver;
   std::vector<Location> places;
   std::shared_ptr<const Inbetween> between;
 };
 
-struct Key {
+struct SheetKey {
   Inbetween::Shape shape;
   SheetPull pull;
   double time = 0;
@@ -26,8 +26,8 @@ struct Key {
 
 class SheetInterval final : public MotionInterval {
  public:
-  SheetInterval(std::shared_ptr<const Setting> setting, std::array<std::optional<Key>, 4> keys,
-                bool smooth, std::vector<char> met)
+  SheetInterval(std::shared_ptr<const SheetSetting> setting,
+                std::array<std::optional<SheetKey>, 4> keys, bool smooth, std::vector<char> met)
       : setting_(std::move(setting)),
         keys_(std::move(keys)),
         still_(least_moving_point(mesh(), keys_[1]->shape.f, keys_[2]->shape.f)),
@@ -59,28 +59,28 @@ class SheetInterval final : public MotionInterval {
   const SheetSolver& solver() const { return *setting_->solver; }
   const Mesh& mesh() const { return *solver().domain().mesh; }
 
-  VectorXc slopes(const std::optional<Key>& before, const Key& here,
-                  const std::optional<Key>& after) const {
+  VectorXc slopes(const std::optional<SheetKey>& before, const SheetKey& here,
+                  const std::optional<SheetKey>& after) const {
     return setting_->between->slopes(
         before ? &before->shape : nullptr, here.shape, after ? &after->shape : nullptr,
         before ? here.time - before->time : 0, after ? after->time - here.time : 0);
   }
 
   SheetPull blended_pull(double u, const VectorXc& f) const {
-    const Key &from = *keys_[1], &to = *keys_[2];
+    const SheetKey &from = *keys_[1], &to = *keys_[2];
     const auto missed = [&](const auto& off) { return (1 - u) * off(from) + u * off(to); };
     SheetPull pull = from.pull;
     for (size_t row = 0; row < pull.targets.size(); ++row) {
       if (row < met_.size() && met_[row] != 0 && from.pull.targets[row] == to.pull.targets[row])
         continue;
-      const auto off = [&](const Key& key) {
+      const auto off = [&](const SheetKey& key) {
         return key.pull.targets[row] - solver().handles().image(row, key.shape.f);
       };
       pull.targets[row] = solver().handles().image(row, f) + missed(off);
     }
     for (size_t k = 0; k < pull.vertices.size(); ++k) {
       VertexPull& at = pull.vertices[k];
-      const auto off = [&](const Key& key) {
+      const auto off = [&](const SheetKey& key) {
         return key.pull.vertices[k].target - key.shape.f[at.vertex];
       };
       at.target = f[at.vertex] + missed(off);
@@ -88,8 +88,8 @@ class SheetInterval final : public MotionInterval {
     return pull;
   }
 
-  std::shared_ptr<const Setting> setting_;
-  std::array<std::optional<Key>, 4> keys_;
+  std::shared_ptr<const SheetSetting> setting_;
+  std::array<std::optional<SheetKey>, 4> keys_;
   std::array<std::optional<VectorXc>, 2> slopes_;
   Location still_;
   std::vector<char> met_;  ///< for each pin, whether it gets exactly to its target
@@ -97,14 +97,14 @@ class SheetInterval final : public MotionInterval {
 
 class SheetMotion final : public ProvedMotion {
  public:
-  explicit SheetMotion(Setting setting)
-      : setting_(std::make_shared<const Setting>(std::move(setting))) {}
+  explicit SheetMotion(SheetSetting setting)
+      : setting_(std::make_shared<const SheetSetting>(std::move(setting))) {}
 
   std::unique_ptr<MotionInterval> interval(const MotionKey* before, const MotionKey& from,
                                            const MotionKey& to, const MotionKey* after,
                                            bool smooth) const override {
-    std::array<std::optional<Key>, 4> keys{key_of(before), key_of(&from), key_of(&to),
-                                           key_of(after)};
+    std::array<std::optional<SheetKey>, 4> keys{key_of(before), key_of(&from), key_of(&to),
+                                                key_of(after)};
     if (!keys[1] || !keys[2]) return nullptr;
     std::vector<char> met;
     const SheetSolver& solver = *setting_->solver;
@@ -116,7 +116,7 @@ class SheetMotion final : public ProvedMotion {
 
  private:
   /// None if the key is not certified.
-  std::optional<Key> key_of(const MotionKey* key) const {
+  std::optional<SheetKey> key_of(const MotionKey* key) const {
     if (!key || !key->extremes) return {};
     const SheetSolver& solver = *setting_->solver;
     const auto* found = dynamic_cast<const SheetSolution*>(key->solution.get());
@@ -124,11 +124,11 @@ class SheetMotion final : public ProvedMotion {
     Inbetween::Shape shape = setting_->between->shape_of(found->state.f, 0);
     const double turns = std::round((key->rotation - shape.logarithm.imag().mean()) / (2 * kPi));
     if (turns != 0) shape = setting_->between->shape_of(found->state.f, static_cast<int>(turns));
-    return Key{std::move(shape), solver.handles().pull(solver.handles().target(*key->pose)),
-               key->time};
+    return SheetKey{std::move(shape), solver.handles().pull(solver.handles().target(*key->pose)),
+                    key->time};
   }
 
-  std::shared_ptr<const Setting> setting_;
+  std::shared_ptr<const SheetSetting> setting_;
 };
 
 }  // namespace
@@ -137,7 +137,7 @@ std::shared_ptr<const ProvedMotion> sheet_motion(std::shared_ptr<const SheetSolv
                                                  std::vector<Location> places) {
   auto between = std::make_shared<const Inbetween>(solver->domain().mesh);
   return std::make_shared<const SheetMotion>(
-      Setting{std::move(solver), std::move(places), std::move(between)});
+      SheetSetting{std::move(solver), std::move(places), std::move(between)});
 }
 
 }  // namespace holomorph

@@ -2,6 +2,7 @@
 #include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "edit/edits/method_edits.h"
+#include "edit/frame.h"
 #include "edit/hold_rest.h"
 
 namespace holomorph {
@@ -290,10 +291,21 @@ std::vector<Action> edit_actions() {
       {
           .id = "edit.hold_rest",
           .label = "Hold the rest",
-          .hint = "One pin moves the whole picture. Set more pins, far from it",
+          .hint = "Set pins far from a single one. In a photograph, hold what is far from all pins",
           .icon = icon_named("pin"),
           .enabled = can_hold_rest,
           .run = hold_rest,
+      },
+      {
+          .id = "edit.let_go",
+          .label = "Let the rest go",
+          .hint = "Let the pins move all of the photograph again",
+          .icon = icon_named("pin"),
+          .enabled =
+              [](const Workspace& w) {
+                return can_choose_frame(w) && w.shown.deformation().held_beyond.has_value();
+              },
+          .run = let_go,
       },
       {
           .id = "edit.free_angle",

@@ -85,6 +85,7 @@ const std::vector<MenuItem>& menus() {
           {"cage.fill"}}},
         {"Pins",
          {{"edit.hold_rest"},
+          {"edit.let_go"},
           separator,
           {"edit.pin_up"},
           {"edit.pin_down"},

@@ -6,6 +6,7 @@
 #include "edit/hold_rest.h"
 #include "edit/picture_cage.h"
 #include "edit/tools/handle_tool.h"
+#include "edit/tools/hold_circle.h"
 
 namespace holomorph {
 namespace {
@@ -16,9 +17,12 @@ class PinTool final : public HandleTool {
 
   void input(const Input& input, Workspace& workspace) override {
     down_ = input.down;
+    if (circle_.active()) return circle_.follow(input, workspace);
     if (follow(input, workspace)) return;
     find(input, workspace);
     ring_.hover(input, workspace);
+    circle_.hover(input, workspace);
+    if (input.inside && input.pressed && on_circle()) return circle_.start(input, workspace);
     if (!input.inside || !input.pressed || press(input, workspace)) return;
     if (!workspace.shown.deformation().has_cage()) return set_first(input, workspace);
     const auto rest = rest_at(workspace, input.position);
@@ -44,8 +48,10 @@ class PinTool final : public HandleTool {
 
   void cancel(Workspace& workspace) override {
     HandleTool::cancel(workspace);
+    circle_.cancel(workspace);
     down_ = false;
   }
+  bool busy() const override { return HandleTool::busy() || circle_.active(); }
   bool has_ring() const override { return true; }
 
   std::string hint(const Workspace& workspace) const override {
@@ -54,6 +60,8 @@ class PinTool final : public HandleTool {
                  ? "Click the picture to set a pin. The first pin also makes the cage"
                  : needs_a_cage(workspace, "Pins need a cage");
     if (ring_.active() || (ring_.hovered() && !hover_)) return ring_.hint(workspace);
+    if (circle_.active() || on_circle())
+      return "Drag the circle to choose how much of the picture may move";
     if (can_hold_rest(workspace) && !drag_.active())
       return "One pin moves the whole picture. Click parts that should stay, or press 'Hold the "
              "rest'";
@@ -94,6 +102,9 @@ class PinTool final : public HandleTool {
     });
   }
 
+  bool on_circle() const { return circle_.hovered() && !hover_ && !ring_.hovered(); }
+
+  HoldCircle circle_;
   bool down_ = false;  ///< whether the button was down at the last input
 };
 

@@ -260,6 +260,8 @@ Deformation read_deformation(const Reader& reader) {
     for (size_t i = 0; i < dabs.size(); ++i) deformation.stiffness.push_back(read_dab(dabs[i]));
   }
   if (reader.has("frame")) deformation.frame = read_frame(reader["frame"]);
+  if (reader.has("held_beyond"))
+    deformation.held_beyond = reader["held_beyond"].within(kMinPinRadius, kMaxPinRadius);
   if (reader.has("outline")) deformation.outline = read_curve(reader["outline"], check_outline);
   if (reader.has("surface")) {
     deformation.surface = read_surface(reader["surface"]);
@@ -301,6 +303,7 @@ void write_deformation(const Deformation& deformation, Json& document) {
         Json::array({dab.at.real(), dab.at.imag(), dab.radius, dab.level}));
   if (deformation.frame != Frame::free)
     document["frame"] = kFrameNames[static_cast<size_t>(deformation.frame)];
+  if (deformation.held_beyond) document["held_beyond"] = *deformation.held_beyond;
   if (!deformation.outline.empty()) document["outline"] = curve_json(deformation.outline);
   if (deformation.surface) document["surface"] = surface_json(*deformation.surface);
   document["method"] = method_json(deformation);

@@ -116,8 +116,8 @@ void read_shared(const Reader& reader, Scene& scene) {
 
 /// The known keys of a layer in both layouts of the file.
 constexpr std::initializer_list<const char*> kLayerKeys{
-    "image", "cage",    "pins",    "strokes", "corners",  "stiffness",
-    "frame", "outline", "surface", "method",  "keyframes"};
+    "image", "cage",        "pins",    "strokes", "corners", "stiffness",
+    "frame", "held_beyond", "outline", "surface", "method",  "keyframes"};
 
 Layer read_layer(const Reader& reader) {
   Layer layer;
@@ -354,7 +354,8 @@ int version_of(const Scene& scene) {
     return std::ranges::any_of(scene.layers,
                                [&](const SharedLayer& layer) { return has(layer->deformation); });
   };
-  if (any([](const Deformation& d) { return d.frame != Frame::free; })) return kFrameVersion;
+  if (any([](const Deformation& d) { return d.frame != Frame::free || d.held_beyond; }))
+    return kFrameVersion;
   if (any([](const Deformation& d) { return !d.rest.holes.empty(); })) return kHoleVersion;
   return has_layers(scene) ? kLayeredVersion : kPlainVersion;
 }
