@@ -37,11 +37,11 @@ void draw_faint_line(ImDrawList& list, const std::vector<ImVec2>& line, bool clo
   list.AddPolyline(line.data(), count, (color & 0x00ffffff) | 0x80000000, flags, s);
 }
 
-void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
+void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
                  const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale), period = 12 * s, drawn = 8 * s;
   float at = 0;  // position within the period of the dashes
-  const size_t count = line.size() == 2 ? 1 : line.size();  // two points form an open line
+  const size_t count = closed ? line.size() : line.size() - 1;
   for (size_t i = 0; i < count; ++i) {
     const ImVec2 a = line[i], b = line[(i + 1) % line.size()];
     const float length = std::hypot(b.x - a.x, b.y - a.y);
@@ -142,14 +142,14 @@ void draw_held_disk(ImDrawList& list, ImVec2 at, float radius, const OverlayStyl
   }
   list.AddPolyline(circle.data(), kPoints, style.colors.outline, ImDrawFlags_Closed,
                    3 * static_cast<float>(style.scale));
-  draw_dashes(list, circle, style.colors.pin, style);
+  draw_dashes(list, circle, true, style.colors.pin, style);
 }
 
 void draw_miss(ImDrawList& list, ImVec2 pin, ImVec2 place, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   if (std::hypot(pin.x - place.x, pin.y - place.y) < 4 * s) return;
   list.AddLine(pin, place, style.colors.outline, 3.5f * s);
-  draw_dashes(list, {pin, place}, style.colors.unreached, style);
+  draw_dashes(list, {pin, place}, false, style.colors.unreached, style);
   list.AddCircleFilled(place, 4.5f * s, style.colors.outline);
   list.AddCircleFilled(place, 3 * s, style.colors.unreached);
 }

@@ -13,9 +13,9 @@ void draw_faint_line(ImDrawList& list, const std::vector<ImVec2>& line, bool clo
                      const OverlayStyle& style);
 /// Draws a small text on a surface of its own.
 void draw_chip(ImDrawList& list, ImVec2 corner, const std::string& text);
-/// Draws a dashed line; with more than two points, it is closed. Rest shapes are dashed because not
-/// everyone can tell them from poses by their color.
-void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 color,
+/// Draws a dashed line of at least one point. Rest shapes are dashed because not everyone can tell
+/// them from poses by their color.
+void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, bool closed, ImU32 color,
                  const OverlayStyle& style);
 /// Draws a vertex as a square and any other control point as a disk.
 void draw_cage_handle(ImDrawList& list, ImVec2 at, bool vertex, bool selected, bool hovered,

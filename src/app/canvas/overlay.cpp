@@ -41,7 +41,7 @@ void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, I
     const float width = static_cast<float>(style.scale);
     list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline,
                      ImDrawFlags_Closed, 3.5f * width);
-    draw_dashes(list, line, color, style);
+    draw_dashes(list, line, line.size() > 2, color, style);
   });
 }
 
@@ -122,7 +122,7 @@ void draw_held_region(ImDrawList& list, const Workspace& workspace, const Overla
       if (arc.size() > 1) {
         list.AddPolyline(arc.data(), static_cast<int>(arc.size()), style.colors.outline, 0,
                          3 * static_cast<float>(style.scale));
-        draw_dashes(list, arc, style.colors.pin, style);
+        draw_dashes(list, arc, false, style.colors.pin, style);
       }
       arc.clear();
     };
