@@ -5,6 +5,8 @@
 #include <ranges>
 #include <vector>
 
+#include "core/arithmetic.h"
+
 namespace holomorph {
 namespace {
 
@@ -46,9 +48,9 @@ Slopes2 slopes_of(const TriangleCubic& cubic, const std::array<Complex, 3>& corn
   for (size_t k = 0; k < 6; ++k) {
     const auto [i, j] = kQuadratic[k];
     const Complex u = cubic(i + 1, j), v = cubic(i, j + 1), w = cubic(i, j);
-    slopes.fz[k] = 3.0 * (weights[0] * u + weights[1] * v + weights[2] * w);
-    slopes.fzbar[k] =
-        3.0 * (std::conj(weights[0]) * u + std::conj(weights[1]) * v + std::conj(weights[2]) * w);
+    slopes.fz[k] = 3.0 * (times(weights[0], u) + times(weights[1], v) + times(weights[2], w));
+    slopes.fzbar[k] = 3.0 * (times(std::conj(weights[0]), u) + times(std::conj(weights[1]), v) +
+                             times(std::conj(weights[2]), w));
   }
   return slopes;
 }

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "core/arithmetic.h"
 #include "core/maps/deformer.h"
 #include "core/maps/triangle_cubic.h"
 
@@ -14,7 +15,7 @@ namespace holomorph {
 /// A corner of a triangle: its place, and the map's value and derivatives there.
 struct SmoothCorner {
   Complex z, f, fz, fzbar;
-  Complex along(Complex d) const { return fz * d + fzbar * std::conj(d); }
+  Complex along(Complex d) const { return times(fz, d) + times(fzbar, std::conj(d)); }
 };
 
 /// A map's distortion in a region: what it attains there, or proved bounds. By default, that of no

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/arithmetic.h"
 #include "core/error.h"
 
 namespace holomorph {
@@ -14,15 +15,16 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
+/// With the sum s of the squares of both stretches and the determinant d, (s + s / d^2) / 2.
 double membrane_of(const SheetStrain& at) {
-  const double large = at.larger(), small = at.smaller();
-  if (!(small > 0)) return kInfinite;
-  return 0.5 * (large * large + small * small + 1 / (large * large) + 1 / (small * small));
+  const double a = std::norm(at.fz), b = std::norm(at.fzbar), determinant = a - b;
+  if (!(determinant > 0)) return kInfinite;
+  return (a + b) * (1 + 1 / (determinant * determinant));
 }
 
 /// A complex number of size 1 in the direction of z; 1 for 0.
 Complex direction_of(Complex z) {
-  const double size = std::abs(z);
+  const double size = std::sqrt(std::norm(z));
   return size > 0 ? z / size : Complex(1);
 }
 
@@ -99,8 +101,8 @@ SheetStrain SheetEnergy::strain(size_t triangle, const VectorXc& f) const {
   SheetStrain at{0, 0};
   for (size_t k = 0; k < 3; ++k) {
     const Complex value = f[mesh_->triangles[triangle][k]], weight = gradients_[triangle][k];
-    at.fz += weight * value;
-    at.fzbar += std::conj(weight) * value;
+    at.fz += times(weight, value);
+    at.fzbar += times(std::conj(weight), value);
   }
   return at;
 }
@@ -135,8 +137,8 @@ SheetEnergy::Changes SheetEnergy::changes_of(size_t triangle, const SheetStrain&
                 unflipped = std::conj(direction_of(at.fzbar));
   Changes changes;
   for (size_t k = 0; k < 3; ++k) {
-    const Complex a = unturned * gradients_[triangle][k],
-                  b = unflipped * std::conj(gradients_[triangle][k]);
+    const Complex a = times(unturned, gradients_[triangle][k]),
+                  b = times(unflipped, std::conj(gradients_[triangle][k]));
     const Index x = static_cast<Index>(2 * k);
     changes.grows.segment<2>(x) << a.real(), -a.imag();
     changes.twists.segment<2>(x) << a.imag(), a.real();
@@ -160,7 +162,10 @@ SheetHessian SheetEnergy::hessian_of(size_t triangle, const VectorXc& f, bool pr
   const Changes by = changes_of(triangle, at);
   const double large = at.larger(), small = at.smaller(), squares = large * large + small * small,
                product = large * small, cube = product * product * product;
-  const auto curvature = [](double stretch) { return 1 + 3 / std::pow(stretch, 4); };
+  const auto curvature = [](double stretch) {
+    const double square = stretch * stretch;
+    return 1 + 3 / (square * square);
+  };
   const auto times_square = [](double factor, const SheetGradient& row) {
     return SheetHessian(factor * row * row.transpose());
   };

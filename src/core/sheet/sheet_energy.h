@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <memory>
 
 #include "core/mesh/mesh.h"
@@ -16,8 +17,8 @@ namespace holomorph {
 struct SheetStrain {
   Complex fz, fzbar;
   /// The largest and the smallest stretch; the latter is negative if the triangle is flipped.
-  double larger() const { return std::abs(fz) + std::abs(fzbar); }
-  double smaller() const { return std::abs(fz) - std::abs(fzbar); }
+  double larger() const { return std::sqrt(std::norm(fz)) + std::sqrt(std::norm(fzbar)); }
+  double smaller() const { return std::sqrt(std::norm(fz)) - std::sqrt(std::norm(fzbar)); }
 };
 
 /// Derivatives of an energy in x and y of a triangle's three vertices, in turn.
