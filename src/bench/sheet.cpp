@@ -50,7 +50,7 @@ SheetFigures sheet_drag(SheetScene scene) {
   constexpr int kFrames = 300;
   for (int frame = 1; frame <= kFrames; ++frame) {
     const double t = static_cast<double>(frame) / kFrames;
-    pose.pins[3].position = from + 0.25 * size * std::sin(kPi * t) * std::polar(1.0, 2 + 2 * t);
+    pose.pins[3].position = from + reach * size * std::sin(kPi * t) * std::polar(1.0, 2 + 2 * t);
     const double start = now_ms();
     map =
         prepared->deformer->deform(pose, {.derivatives = true, .draft = true}, map.solution.get());

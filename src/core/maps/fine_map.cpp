@@ -86,7 +86,9 @@ class Cubics {
       Edge& edge = edges_[static_cast<size_t>(edge_between(mesh.boundary[i], next))];
       edge.arc = edge.a == mesh.boundary[i] ? arcs[i] : reversed(arcs[i]);
     }
-    while (mark_edges() | mark_kinked()) {
+    for (;;) {
+      const bool any_edge = mark_edges();  // evaluates the middles that mark_kinked needs
+      if (!mark_kinked() && !any_edge) break;
       mark_longest();
       cut();
       check_size(pieces_.size());
@@ -184,9 +186,9 @@ class Cubics {
   /// map is not nearly cubic, although it is along the edges.
   bool mark_kinked() {
     constexpr double kCenter = 6.0 / 27;  // the weight of the inner Bezier point at the center
+    if (!is_piecewise_) return false;
     bool any = false;
     for (const Piece& piece : pieces_) {
-      if (!is_piecewise_) break;
       const auto suggested = inner_points(piece);
       const double spread =
           std::max({std::abs(suggested[1] - suggested[0]), std::abs(suggested[2] - suggested[1]),

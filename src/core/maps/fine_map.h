@@ -25,8 +25,8 @@ struct FineMap {
 /// within `tolerance` of the map, in units of the plane. Triangles keep their order: the pieces of
 /// one come before the pieces of the next. The boundary follows the cage to within the same
 /// tolerance. Triangles with images that are not finite are left out. `values_at` gives the map at
-/// many points, and may use several threads; an exception from it ends the work. `is_piecewise` is
-/// that of its PointMap. Throws Error for more than 20 million triangles. Cost: about four
+/// many points, and may use several threads; an exception from it ends the work. `is_piecewise`:
+/// see PointMap. Throws Error for more than 20 million triangles. Cost: about four
 /// evaluations of the map per vertex of the mesh, and 50 ns per piece.
 FineMap fine_map(const Cage& rest, const Mesh& mesh, double tolerance, const PointValues& values_at,
                  bool is_piecewise = false);

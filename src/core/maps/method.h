@@ -60,8 +60,8 @@ struct Method {
   /// Motions of the plane: if all handles move by one of these, the map is that motion.
   enum class Motions { none, rigid, similar } reproduces = Motions::similar;
   bool needs_mesh = false;  ///< Rest::mesh must be set
-  /// The map is smooth between the vertices of Rest::mesh, which should have edges about half as
-  /// long as the picture is wide there (HalfWidth). Other methods use finer ones.
+  /// The map is smooth between the vertices of Rest::mesh, which should have edges about a fifth as
+  /// long as the picture is wide there (HalfWidth). Other methods use finer meshes.
   bool smooths_mesh = false;
   bool allows_holes = true;  ///< the cage may have holes
   bool follows_others =

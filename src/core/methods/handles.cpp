@@ -46,16 +46,16 @@ Points HandlePoints::targets(const Pose& pose) const {
   return targets;
 }
 
-std::optional<Similarity> HandlePoints::rigid(const Points& targets) const {
-  if (targets == rest_points_) return Similarity{1, 0, 0};
-  Similarity rigid = similarity_between(rest_points_, targets);
+std::optional<Similarity> rigid_motion(const Points& from, const Points& to) {
+  if (to == from) return Similarity{1, 0, 0};
+  Similarity rigid = similarity_between(from, to);
   rigid.factor /= std::abs(rigid.factor);
   double size = 0;
-  for (size_t i = 0; i < targets.size(); ++i)
-    size = std::max({size, std::abs(rest_points_[i]), std::abs(targets[i])});
+  for (size_t i = 0; i < to.size(); ++i)
+    size = std::max({size, std::abs(from[i]), std::abs(to[i])});
   constexpr double kRounding = 1e-13;
-  for (size_t i = 0; i < targets.size(); ++i)
-    if (std::abs(rigid(rest_points_[i]) - targets[i]) > kRounding * size) return {};
+  for (size_t i = 0; i < to.size(); ++i)
+    if (std::abs(rigid(from[i]) - to[i]) > kRounding * size) return {};
   return rigid;
 }
 

@@ -7,6 +7,10 @@
 
 namespace holomorph {
 
+/// The rigid motion that takes points to others up to rounding, or nothing if none exists. If the
+/// points are the same, it is exactly the identity.
+std::optional<Similarity> rigid_motion(const Points& from, const Points& to);
+
 /// The handle points of a rest are its pins, and the points of the disks of pins with a frame. If
 /// none of them lies in the mesh, the handle points are the vertices of the cage. If cage vertices
 /// were always held, a cage around a picture with pins would fix the picture's outline in place.
@@ -20,9 +24,10 @@ class HandlePoints {
   const std::vector<Location>& locations() const { return locations_; }
   /// Targets of the handle points in a pose. Throws Error if check_pose does.
   Points targets(const Pose& pose) const;
-  /// The rigid motion that takes all handles to their targets up to rounding, or nothing if none
-  /// exists. At rest, the motion is exactly the identity.
-  std::optional<Similarity> rigid(const Points& targets) const;
+  /// The rigid motion of all handles (rigid_motion).
+  std::optional<Similarity> rigid(const Points& targets) const {
+    return rigid_motion(rest_points_, targets);
+  }
   /// Names the first pin outside the cage. Empty if all pins are inside.
   const std::string& note() const { return note_; }
 

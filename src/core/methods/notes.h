@@ -13,8 +13,8 @@ namespace holomorph {
 std::string short_pin_text(size_t pin, double pixels);
 /// From this fraction of the picture's size on, a missed pin is mentioned.
 inline constexpr double kMissed = 0.005;
-/// The pin that is farthest from its target, and how many others are off, from `least` on. Each pin
-/// of `pins` has an offset. Empty if all pins are met.
+/// Names the pin that is farthest from its target, and counts the others that miss theirs by at
+/// least `least`, in units of the plane. `offsets` are those of `pins`. Empty if none misses.
 std::string missed_pins_text(std::span<const size_t> pins, std::span<const Complex> offsets,
                              double least);
 /// The strongest distortion of the picture, which explains why a pin is missed.

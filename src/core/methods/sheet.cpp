@@ -26,15 +26,14 @@ class SheetDeformer final : public Deformer {
     const SheetHandles::Target target = handles().target(pose);
     const auto* before = dynamic_cast<const SheetSolution*>(from);
     const auto found = std::make_shared<SheetSolution>();
-    found->domain = solver_->shared_domain();
+    found->solver = solver_;
     if (const auto rigid = handles().rigid(target)) {
       found->state = moved(*rigid, target);
       SampledMap out = rigid_map(*rigid, options);
       finish(found, out);
       return out;
     }
-    if (options.draft && before && before->domain == found->domain &&
-        before->state.turns.size() == handles().pins().size())
+    if (options.draft && before && before->solver == solver_)
       found->state = solver_->followed(target, before->state);
     else
       found->state = solver_->solved(target, options.stop);
@@ -153,13 +152,13 @@ Method sheet_method() {
           "Pins move what is near them, and what is far away stays. Sizes and shapes are kept as "
           "far as possible, and nothing folds. Paint stiffness (B) on parts that should change "
           "least. Without pins, the cage points stay where you put them.",
-      .parameters = {number("roundness", "Roundness",
-                            "Higher values bend wider parts of a limb; at 0, pins pull out spikes",
-                            1.5, 0, 4),
-                     toggle("exact", "Exact pins",
-                            "Meet the pins exactly when the pointer is released"),
-                     by_decades("pin_weight", "Pin weight",
-                                "Higher values meet the pins more closely", 1e5, 1e2, 1e7)},
+      .parameters =
+          {number("roundness", "Roundness",
+                  "Higher values spread a bend over more of a limb; at 0, pins pull out spikes",
+                  1.5, 0, 4),
+           toggle("exact", "Exact pins", "Meet the pins exactly when the pointer is released"),
+           by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 1e5,
+                      1e2, 1e7)},
       .uses_pins = true,
       .uses_strokes = true,
       .uses_stiffness = true,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/maps/held_disk.h"
+#include "core/methods/handles.h"
 #include "core/sheet/smooth_map.h"
 
 namespace holomorph {
@@ -125,25 +126,13 @@ SheetHandles::Target SheetHandles::target(const Pose& pose) const {
 }
 
 std::optional<Similarity> SheetHandles::rigid(const Target& target) const {
-  if (target.displacements.isZero(0) &&
-      std::ranges::all_of(target.frames, [](Complex frame) { return frame == 0.0; }))
-    return Similarity{};
-  if (!holds_.fixed.empty()) return {};
-  Points images;
-  for (size_t i = 0; i < stations().size(); ++i) images.push_back(wanted(i, target));
-  Similarity rigid = similarity_between(stations(), images);
-  if (images.size() == 1 && !target.frames.empty())
-    rigid.factor = std::polar(1.0, target.frames[0].imag());
-  rigid.factor /= std::abs(rigid.factor);
-  constexpr double kRounding = 1e-13;
-  double size = 0;
-  for (size_t i = 0; i < images.size(); ++i)
-    size = std::max({size, std::abs(stations()[i]), std::abs(images[i])});
-  for (size_t i = 0; i < images.size(); ++i)
-    if (std::abs(rigid(stations()[i]) - images[i]) > kRounding * size) return {};
-  for (const Complex& frame : target.frames)
-    if (std::abs(std::exp(frame) - rigid.factor) > 10 * kRounding) return {};
-  return rigid;
+  Points from = stations(), to = straight(target, 1);
+  for (size_t k = 0; k < framed_.size(); ++k) {  // a second point turns with each frame
+    from.push_back(stations()[framed_[k]] + domain_.size);
+    to.push_back(wanted(framed_[k], target) + domain_.size * std::exp(target.frames[k]));
+  }
+  if (!holds_.fixed.empty() && from != to) return {};
+  return rigid_motion(from, to);
 }
 
 Points SheetHandles::straight(const Target& target, double part) const {
@@ -167,12 +156,6 @@ SheetPull SheetHandles::pull(const Target& target, Points at, double part, doubl
     if (target.turns[row] && std::ranges::find(framed_, row) == framed_.end())
       turn_around(row, std::polar(1.0, part * *target.turns[row]), guide);
   return pull;
-}
-
-Complex SheetHandles::image(size_t row, const VectorXc& f) const {
-  Complex sum = 0;
-  for (const auto& [v, weight] : holds_.rows[row].terms) sum += weight * f[v];
-  return sum;
 }
 
 }  // namespace holomorph

@@ -48,7 +48,7 @@ class SheetHandles {
   /// The pull at the end.
   SheetPull pull(const Target& target) const { return pull(target, straight(target, 1), 1, 0); }
   /// The image of a row.
-  Complex image(size_t row, const VectorXc& f) const;
+  Complex image(size_t row, const VectorXc& f) const { return holds_.rows[row].image(f); }
   Complex wanted(size_t row, const Target& target) const {
     return stations()[row] + target.displacements[static_cast<Index>(row)];
   }

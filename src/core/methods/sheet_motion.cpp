@@ -120,7 +120,7 @@ class SheetMotion final : public ProvedMotion {
     if (!key || !key->extremes) return {};
     const SheetSolver& solver = *setting_->solver;
     const auto* found = dynamic_cast<const SheetSolution*>(key->solution.get());
-    if (!found || found->domain != solver.shared_domain()) return {};
+    if (!found || found->solver != setting_->solver) return {};
     Inbetween::Shape shape = setting_->between->shape_of(found->state.f, 0);
     const double turns = std::round((key->rotation - shape.logarithm.imag().mean()) / (2 * kPi));
     if (turns != 0) shape = setting_->between->shape_of(found->state.f, static_cast<int>(turns));

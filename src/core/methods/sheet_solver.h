@@ -17,9 +17,10 @@ struct SheetState {
   std::vector<double> turns;  ///< of the pins: rotations of the picture there, unwrapped
 };
 
-/// A map that was found, as a value from which a draft or a motion can continue.
+class SheetSolver;
+/// A map that was found, as a value from which a draft or a motion of the same solver can continue.
 struct SheetSolution : Solution {
-  std::shared_ptr<const SheetDomain> domain;
+  std::shared_ptr<const SheetSolver> solver;
   SheetState state;
 };
 
@@ -36,7 +37,6 @@ class SheetSolver {
   SheetSolver(const Rest& rest, const Settings& settings, const SheetSolver* previous);
 
   const SheetDomain& domain() const { return *domain_; }
-  const std::shared_ptr<const SheetDomain>& shared_domain() const { return domain_; }
   const SheetHandles& handles() const { return handles_; }
   const SheetEnergy& energy() const { return *energy_; }
   const Settings& settings() const { return settings_; }

@@ -27,12 +27,6 @@ int slot_of(const Matrix& matrix, Index i, Index j) {
   return static_cast<int>(found - matrix.innerIndexPtr());
 }
 
-Complex image_of(const SheetRow& row, const VectorXc& f) {
-  Complex sum = 0;
-  for (const auto& [v, weight] : row.terms) sum += weight * f[v];
-  return sum;
-}
-
 }  // namespace
 
 struct SheetProgram::Factor {
@@ -85,7 +79,7 @@ SheetProgram::~SheetProgram() = default;
 double SheetProgram::value(const VectorXc& f, const SheetPull& pull) const {
   double sum = energy_->value(f);
   for (size_t r = 0; r < holds_.rows.size(); ++r)
-    sum += holds_.rows[r].weight * std::norm(image_of(holds_.rows[r], f) - pull.targets[r]);
+    sum += holds_.rows[r].weight * std::norm(holds_.rows[r].image(f) - pull.targets[r]);
   for (const VertexPull& at : pull.vertices) sum += at.weight * std::norm(f[at.vertex] - at.target);
   return sum;
 }
@@ -101,7 +95,7 @@ VectorXd SheetProgram::gradient(const VectorXc& f, const SheetPull& pull) const 
   }
   for (size_t r = 0; r < holds_.rows.size(); ++r) {
     const SheetRow& row = holds_.rows[r];
-    const Complex off = 2 * row.weight * (image_of(row, f) - pull.targets[r]);
+    const Complex off = 2 * row.weight * (row.image(f) - pull.targets[r]);
     for (const auto& [v, weight] : row.terms)
       gradient.segment<2>(2 * v) += weight * Eigen::Vector2d(off.real(), off.imag());
   }

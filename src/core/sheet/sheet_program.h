@@ -12,6 +12,12 @@ namespace holomorph {
 struct SheetRow {
   std::vector<std::pair<int, double>> terms;  ///< vertices and their weights
   double weight = 0;                          ///< per squared unit of the plane
+
+  Complex image(const VectorXc& f) const {
+    Complex sum = 0;
+    for (const auto& [v, part] : terms) sum += part * f[v];
+    return sum;
+  }
 };
 
 /// What holds a sheet, whatever the pose is.

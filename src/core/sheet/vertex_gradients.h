@@ -14,9 +14,9 @@ namespace holomorph {
 /// six. They are exact for quadratics, except where the neighbors do not determine one.
 class VertexGradients {
  public:
-  /// `framed` marks vertices of the outline; empty: none. Their derivatives along the outline are
-  /// those of the outline's vertices alone, so that straight sides that stay on their lines are
-  /// images of themselves. Cost: a small least-squares problem for each vertex.
+  /// `framed` marks vertices of the outline; empty: none. Their derivatives along the outline
+  /// depend on its vertices alone, so that a side stays straight if its vertices do. Cost: a small
+  /// least-squares problem for each vertex.
   explicit VertexGradients(const Mesh& mesh, std::span<const char> framed = {});
 
   VectorXc fz(const VectorXc& f) const { return weights_ * f; }

@@ -114,6 +114,19 @@ TEST_CASE("Sheet: a frame that slides remains its rectangle, and a fixed one sta
     }
 }
 
+TEST_CASE("Sheet: drafts ignore solutions of sheets that are held differently") {
+  Rest rest = rest_of(polygon_cage(shapes::rectangle(640, 400)), {{320, 60}, {320, 300}});
+  rest.frame = Frame::slide;
+  Pose pose = at_rest(rest);
+  pose.pins[0].position += Complex(90, 10);
+  const auto slides = prepared(rest);
+  const SampledMap before = slides->deform(pose, {});
+  rest.frame = Frame::fixed;
+  const auto fixed = method_named("sheet").prepare(rest, slides.get());
+  const EvalOptions draft{.derivatives = false, .draft = true};
+  CHECK(fixed->deform(pose, draft, before.solution.get()).f == fixed->deform(pose, draft).f);
+}
+
 TEST_CASE("Sheet: a pin with a rotation turns what is around it, and other parts stay") {
   // A head on a neck, beside a body that two pins hold.
   const Points outline{{0, 0},     {500, 0},   {500, 200}, {330, 220}, {330, 300}, {400, 330},
