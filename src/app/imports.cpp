@@ -14,6 +14,7 @@
 #include "scene/formats/numbered_frames.h"
 #include "scene/formats/outline_import.h"
 #include "scene/formats/svg_path.h"
+#include "scene/joined_cage.h"
 
 namespace holomorph {
 
@@ -191,9 +192,10 @@ std::string Imports::svg(const Path& path, bool pose) {
   const auto cage = std::make_shared<Cage>();
   return jobs_.run(
       "Reading " + path.filename().string(),
-      [cage, path, pose, height = image ? image->height : 0](Job::Progress&) {
-        *cage = cage_of_svg(read_file(path), path.string(), height,
-                            pose ? PathUse::pose : PathUse::rest);
+      [cage, path, pose, height = image ? image->height : 0,
+       rest = workspace_.shown.base().rest](Job::Progress&) {
+        *cage = pose ? cage_of_svg(read_file(path), path.string(), height, PathUse::pose, &rest)
+                     : cage_of_svg(read_file(path), path.string(), height);
       },
       [this, cage, pose, path] {
         chosen_(path);
@@ -211,6 +213,8 @@ void Imports::take_cage(Cage cage, bool pose) {
     deformation.pose = std::move(cage);
   else
     deformation = with_cage(std::move(deformation), std::move(cage));
+  if (!method_named(deformation.method).allows_parts)
+    deformation = with_joined_parts(std::move(deformation));
   if (!workspace_.commit(pose ? "Pose from SVG" : "Cage from SVG", std::move(deformation),
                          pose ? EditBase::shown : EditBase::document))
     return;

@@ -126,10 +126,14 @@ Points limbed_body();
 enum class SheetScene { limbs, photograph };
 struct SheetFigures {
   double preparation_ms = 0, median_ms = 0, longest_ms = 0;
-  double final_ms = 0;  ///< the pin released half way
+  double final_ms = 0;   ///< the pin released half way
+  double megabytes = 0;  ///< by which the process grew
   int unproved = 0;
 };
 SheetFigures sheet_drag(SheetScene scene);
+
+/// The memory of the process.
+double resident_mb();
 
 /// Figures for a drag of 120 frames of a puppet with 10 pins and 10k mesh vertices, with proof and
 /// evaluation on the mesh, for a basis with about this many vertices.

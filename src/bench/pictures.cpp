@@ -30,13 +30,6 @@ Image gradient(int side) {
   return image;
 }
 
-double resident_mb() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmRSS:")) return std::atof(line.c_str() + 6) / 1024;
-  return 0;
-}
-
 double every_pixel_ms(const std::function<void(const Scene&, const Image&)>& work) {
   const Image image = gradient(2000);
   Deformation deformation = scene_with(wavy(32, {1000, 1000}, 780));
@@ -70,6 +63,13 @@ Deformation moving_shape(const char* method) {
 }
 
 }  // namespace
+
+double resident_mb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::atof(line.c_str() + 6) / 1024;
+  return 0;
+}
 
 double st_map_ms() {
   return every_pixel_ms([](const Scene& scene, const Image& image) {

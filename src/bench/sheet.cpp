@@ -4,6 +4,7 @@
 #include "bench/measures.h"
 #include "core/clock.h"
 #include "scene/prepared_map.h"
+#include "system/memory.h"
 
 namespace holomorph::bench {
 namespace {
@@ -41,6 +42,8 @@ SheetFigures sheet_drag(SheetScene scene) {
   const double size = box_of(vertices_of(deformation.rest)).diagonal(),
                reach = scene == SheetScene::photograph ? 0.12 : 0.25;
   SheetFigures figures;
+  return_freed_memory();
+  const double before_mb = resident_mb();
   const auto prepared = prepared_map(deformation, Precision::single, MeshOptions{});
   figures.preparation_ms = prepared->milliseconds;
   const Complex from = deformation.pins[3].rest;
@@ -70,6 +73,7 @@ SheetFigures sheet_drag(SheetScene scene) {
     figures.final_ms = finals[1];
     figures.unproved += last.status != SampledMap::Status::certified;
   }
+  figures.megabytes = resident_mb() - before_mb;
   figures.longest_ms = *std::ranges::max_element(times);
   std::ranges::nth_element(times, times.begin() + kFrames / 2);
   figures.median_ms = times[kFrames / 2];

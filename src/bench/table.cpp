@@ -63,12 +63,13 @@ Benchmark sheet(const std::string& what, SheetScene scene) {
            {name + ", drag with proof, median of 300 frames", "ms", 8},
            {name + ", the longest frame", "ms", 16},
            {name + ", a final map", "ms", 300},
+           {name + ", memory", "MB", 50},
            {name + ", maps without a proof", "", 0}},
           1,
           [scene](int) {
             const SheetFigures figures = sheet_drag(scene);
             return std::vector{figures.preparation_ms, figures.median_ms, figures.longest_ms,
-                               figures.final_ms, 1.0 * figures.unproved};
+                               figures.final_ms,       figures.megabytes, 1.0 * figures.unproved};
           }};
 }
 

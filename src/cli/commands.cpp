@@ -73,13 +73,16 @@ void run(const NewCommand& command) {
   const Image& picture = *loaded.image();
   const double height = picture.height;
   Deformation deformation = with_cage(
-      {}, command.cage ? cage_of_file(*command.cage, picture)
-                       : auto_cage(picture, {command.vertices, command.margin, command.detail,
-                                             command.hole_width, command.curved}));
+      {}, command.cage
+              ? cage_of_file(*command.cage, picture)
+              : auto_cage(picture, {command.vertices, command.margin, command.detail,
+                                    command.hole_width, command.curved,
+                                    command.parts ? PartChoice::apart : PartChoice::joined}));
   check_rest_cage(deformation.rest);
+  if (!deformation.rest.parts.empty()) deformation.method = usual_method(MethodUse::puppet).id;
   if (command.pose) {
-    deformation.pose =
-        cage_of_svg(read_file(*command.pose), command.pose->string(), height, PathUse::pose);
+    deformation.pose = cage_of_svg(read_file(*command.pose), command.pose->string(), height,
+                                   PathUse::pose, &deformation.rest);
     try {
       check_same_loops(deformation.rest, deformation.pose);
     } catch (const Error& error) {
@@ -100,7 +103,8 @@ void run(const NewCommand& command) {
   write_result(command.out, text);
   std::fprintf(stderr, "%s: a cage with %zu vertices\n", shown_output(command.out).c_str(),
                static_cast<size_t>(deformation.rest.size()));
-  if (const std::string left = command.cage ? "" : left_out_text(smaller_parts(picture).size());
+  if (const std::string left =
+          command.cage ? "" : left_out_text(parts_outside(picture, deformation.rest).size());
       !left.empty())
     std::fprintf(stderr, "%s: %s\n", shown_output(command.out).c_str(), left.c_str());
 }

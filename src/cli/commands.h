@@ -64,6 +64,7 @@ struct NewCommand {
   std::optional<double> margin = {};  ///< in pixels; none: see AutoCageOptions::detail
   double detail = 50;
   double hole_width = 3;  ///< percent; see AutoCageOptions::hole_width
+  bool parts = false;     ///< an outline for each part of the picture, for method sheet
   bool curved = false;
   std::optional<Path> cage;     ///< SVG file or surface with texture coordinates
   std::optional<Path> pose;     ///< SVG file

@@ -5,7 +5,7 @@
 namespace holomorph {
 
 bool is_upright_rectangle(const Cage& cage) {
-  if (cage.size() != 4 || !cage.holes.empty() || !is_straight(cage)) return false;
+  if (cage.size() != 4 || !cage.starts.empty() || !is_straight(cage)) return false;
   const Points corners = vertices_of(cage);
   for (size_t k = 0; k < 4; ++k) {
     const Complex side = corners[(k + 1) % 4] - corners[k],

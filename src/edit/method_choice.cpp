@@ -16,13 +16,13 @@ bool pins_act_alone(const Method& method, const Deformation& deformation) {
 /// The map of the picture's edge, as images of the vertices of the mesh's boundary.
 class EdgeMap {
  public:
-  EdgeMap(const Mesh& mesh, Points images) : edge_{{}, mesh.holes}, images_(std::move(images)) {
+  EdgeMap(const Mesh& mesh, Points images) : edge_{{}, mesh.starts}, images_(std::move(images)) {
     for (const int v : mesh.boundary) edge_.points.push_back(mesh.vertices[static_cast<size_t>(v)]);
   }
   /// The image of the point of the edge that is nearest to a rest point.
   Complex operator()(Complex rest) const {
     const NearestPoint near = nearest_on_polygon(edge_, rest);
-    const Loops loops{static_cast<Index>(edge_.points.size()), edge_.holes};
+    const Loops loops{static_cast<Index>(edge_.points.size()), edge_.starts};
     const Complex from = images_[static_cast<size_t>(near.edge)],
                   to = images_[static_cast<size_t>(loops.next(near.edge))];
     return from + near.t * (to - from);

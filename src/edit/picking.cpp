@@ -59,10 +59,16 @@ bool is_in_hole(const Workspace& workspace, Complex z) {
   if (!workspace.map().has_map() || rest_at(workspace, z)) return false;
   const Mesh& mesh = *workspace.map().prepared()->mesh;
   const std::span<const Complex> positions = shown_positions(workspace);
-  Points outer;
-  for (Index i = 0; i < mesh.boundary_loops().length(0); ++i)
-    outer.push_back(positions[static_cast<size_t>(mesh.boundary[static_cast<size_t>(i)])]);
-  return encloses(outer, z);
+  const Cage& rest = workspace.map().prepared()->rest.cage;
+  const Loops loops = mesh.boundary_loops();
+  for (Index l = 0; l < loops.count(); ++l) {
+    if (rest.is_hole(l)) continue;
+    Points outline;
+    for (Index i = loops.first(l); i < loops.end(l); ++i)
+      outline.push_back(positions[static_cast<size_t>(mesh.boundary[static_cast<size_t>(i)])]);
+    if (encloses(outline, z)) return true;
+  }
+  return false;
 }
 
 Complex posed_at(const LiveMap& map, Complex rest) {

@@ -87,12 +87,20 @@ void add_loop(Cage& cage, const Points& loop, int degree) {
     cage.segments.emplace_back(first, first + degree);
 }
 
-Cage cage_of(const PointArray& outer, const std::vector<PointArray>& holes, int degree) {
-  Cage cage;
-  add_loop(cage, outer.points, degree);
+/// Holes belong to the part that contains them.
+Cage cage_of(const PointArray& outer, const std::vector<PointArray>& holes, int degree,
+             const std::vector<PointArray>& parts = {}) {
+  const auto loop_of = [degree](const PointArray& loop) {
+    Cage cage;
+    add_loop(cage, loop.points, degree);
+    return cage;
+  };
+  Cage cage = loop_of(outer);
+  for (const PointArray& part : parts) add_part(cage, loop_of(part));
+  const PartFinder finder(cage);
   for (const PointArray& hole : holes) {
-    cage.holes.push_back(cage.size());
-    add_loop(cage, hole.points, degree);
+    const Cage loop = loop_of(hole);
+    add_hole(cage, loop.segments, loop.size() > 0 ? finder.at(loop.vertex(0)) : 0);
   }
   check_rest_cage(cage);
   return cage;
@@ -266,7 +274,7 @@ py::array coordinates(const PointArray& cage_points, const PointArray& points,
     throw Error(ErrorKind::bad_input, "these coordinates have order 0 or 1");
   const Orientation orientation(cage);
   if (kind == "hilbert") {
-    if (!orientation.is_oriented() || !cage.holes.empty())
+    if (!orientation.is_oriented() || cage.loops().count() > 1)
       throw Error(ErrorKind::bad_input,
                   "Hilbert coordinates need a counter-clockwise cage without holes");
     std::vector<Index> corners;
@@ -533,15 +541,17 @@ void add_handles(py::class_<PythonScene>& scene) {
       .def(
           "set_cage",
           [](PythonScene& self, const PointArray& points, int degree,
-             const std::vector<PointArray>& holes) {
-            const Cage cage = cage_of(points, holes, degree);
+             const std::vector<PointArray>& holes, const std::vector<PointArray>& parts) {
+            const Cage cage = cage_of(points, holes, degree, parts);
             self.edit([&](Deformation& deformation) {
               deformation = with_cage(std::move(deformation), cage);
             });
           },
           py::arg("points"), py::arg("degree") = 1, py::arg("holes") = py::list(),
+          py::arg("parts") = py::list(),
           "Draws a new cage at rest. Segments of a degree above 1 are Bezier curves: each begins "
-          "with a vertex, and degree - 1 control points follow.")
+          "with a vertex, and degree - 1 control points follow. `parts` are further outlines of "
+          "the picture, for the method 'sheet'.")
       .def_property_readonly(
           "cage",
           [](const PythonScene& self) { return vector_array(controls(self.deformation().rest)); },

@@ -11,10 +11,9 @@
 #include "core/geometry/curve_around.h"
 #include "core/geometry/polyline.h"
 #include "core/geometry/simplify.h"
-#include "scene/cell_grid.h"
-#include "scene/content_parts.h"
 #include "scene/enclosed_regions.h"
 #include "scene/limits.h"
+#include "scene/part_grid.h"
 
 namespace holomorph {
 namespace {
@@ -24,57 +23,13 @@ Points rectangle(const Image& image, double margin) {
   return {{-margin, -margin}, {right, -margin}, {right, top}, {-margin, top}};
 }
 
-/// The part of the content around which the cage is made, on a grid of cells. A cell covers scale x
-/// scale pixels. Lengths are in cells; distances are those between the centers of cells.
-struct Part {
-  Grid<float> distance;       ///< to the part
-  Grid<std::uint8_t> others;  ///< cells with content that does not belong to the part
-  int scale, border, height;  ///< border: empty cells at each side; height: of the picture, pixels
-  double size;                ///< diagonal of the part's box
-
-  /// From cells to the picture's plane, y up.
-  Complex in_picture(Complex z) const {
-    return {(z.real() - border + 0.5) * scale, height + (z.imag() + border - 0.5) * scale};
-  }
-};
-
-/// None if the picture has no content or no transparency. Around the part, there is room for
-/// distances up to `reach` pixels and up to a fraction of the part's size.
-std::optional<Part> part_of(const Image& image, double fraction, double reach) {
-  if (is_opaque(image)) return {};
-  const std::vector<std::uint8_t> part = largest_part(image);
-  if (part.empty()) return {};
-  const auto is_set = [&](int c, int r) {
-    return part[static_cast<size_t>(r) * static_cast<size_t>(image.width) + static_cast<size_t>(c)];
-  };
-  Box box;
-  for (int r = 0; r < image.height; ++r)
-    for (int c = 0; c < image.width; ++c)
-      if (is_set(c, r)) box.include(Complex(c, r));
-  constexpr int kMostCells = 4096;
-  const int longest = std::max(image.width, image.height);
-  const int scale = (longest + kMostCells - 1) / kMostCells;
-  const double size = (box.diagonal() + 1) / scale;
-  const int border = static_cast<int>(std::ceil(std::max(fraction * size, reach / scale))) + 5;
-  Grid<std::uint8_t> cells((image.width - 1) / scale + 1 + 2 * border,
-                           (image.height - 1) / scale + 1 + 2 * border, 0);
-  Grid<std::uint8_t> others = cells;
-  for (int r = 0; r < image.height; ++r)
-    for (int c = 0; c < image.width; ++c)
-      if (is_set(c, r))
-        cells(border + c / scale, border + r / scale) = 1;
-      else if (image.at(c, r)[3] > kOpaqueAlpha)
-        others(border + c / scale, border + r / scale) = 1;
-  return Part{distance_field(cells), std::move(others), scale, border, image.height, size};
-}
-
 // Distances between the centers of cells. Level curves cut off corners, so that whole cells are
 // enclosed only from 1 on; the rest is for rounding. Two cells are just enough for gaps of three.
 constexpr double kEdge = 0.5, kEnclosing = 1.1, kLeastOuter = 1.9;
 
 /// The point of the part's edge that is nearest to each cell, or -1 where it is farther away than
 /// `reach`. The points spread to neighboring cells in sweeps over the grid.
-Grid<int> nearest_points(const Part& part, const Points& edge, double reach) {
+Grid<int> nearest_points(const PartGrid& part, const Points& edge, double reach) {
   const int width = part.distance.width, height = part.distance.height;
   Grid<int> nearest(width, height, -1);
   const auto offer = [&](int point, int c, int r) {
@@ -104,7 +59,7 @@ Grid<int> nearest_points(const Part& part, const Points& edge, double reach) {
 
 /// Where two cells of the middle of a gap touch only at a corner, adds the one between them that is
 /// farther from the part. A level curve would otherwise close the gap there.
-void join_diagonals(const Part& part, Grid<std::uint8_t>& middles) {
+void join_diagonals(const PartGrid& part, Grid<std::uint8_t>& middles) {
   for (int r = 0; r + 1 < middles.height; ++r)
     for (int c = 0; c + 1 < middles.width; ++c)
       for (const int left : {0, 1}) {  // the upper left and lower right cells, or the other two
@@ -120,7 +75,7 @@ void join_diagonals(const Part& part, Grid<std::uint8_t>& middles) {
 /// The distance to the middle of narrow gaps between limbs, and of the regions in front of them.
 /// There, the nearest points of the part's edge are farther apart along the edge than a tenth of
 /// the size for two neighboring cells. None if there are no gaps up to this distance from the part.
-std::optional<Grid<float>> distance_to_gaps(const Part& part, double reach) {
+std::optional<Grid<float>> distance_to_gaps(const PartGrid& part, double reach) {
   const Points edge = level_curve(part.distance, kEdge);
   std::vector<double> along{0};
   for (size_t i = 0; i < edge.size(); ++i)
@@ -152,7 +107,7 @@ std::optional<Grid<float>> distance_to_gaps(const Part& part, double reach) {
 class Band {
  public:
   /// `to_gaps` may be null.
-  Band(const Part& part, const Grid<float>* to_gaps, double margin)
+  Band(const PartGrid& part, const Grid<float>* to_gaps, double margin)
       : part_(part),
         to_gaps_(to_gaps),
         outer_(std::max(kEdge + 2 * margin, kLeastOuter)),
@@ -162,15 +117,19 @@ class Band {
   void narrow() { outer_ = middle_ + 0.25 * (outer_ - middle_); }
 
   /// The curve on which the cage's vertices lie.
-  Points middle() const {
+  Points middle() const { return curve_at(middle_); }
+  /// The level curve of the distance, but not across the middle of a gap.
+  Points curve_at(double level) const {
     constexpr double kMiddle = 0.7;  // of the way to the middle of a gap
-    if (!to_gaps_) return level_curve(part_.distance, middle_);
     Grid<float> field = part_.distance;
-    for (size_t i = 0; i < field.cells.size(); ++i)
-      field.cells[i] = std::max(
-          field.cells[i],
-          static_cast<float>(middle_ / kMiddle * part_of_way(field.cells[i], to_gaps_->cells[i])));
-    return level_curve(field, middle_);
+    for (size_t i = 0; i < field.cells.size(); ++i) {
+      const double own = field.cells[i],
+                   to_gap = std::min<double>(to_gaps_ ? to_gaps_->cells[i] : HUGE_VAL,
+                                             to_middle(own, part_.to_rivals.cells[i]));
+      field.cells[i] =
+          std::max(field.cells[i], static_cast<float>(level / kMiddle * part_of_way(own, to_gap)));
+    }
+    return level_curve(field, level);
   }
   /// The same in an enclosed region that is at least kLeastHole deep.
   Points middle_in(const EnclosedRegion& region) const {
@@ -189,7 +148,8 @@ class Band {
       const Complex z = a + (b - a) * (at / length);
       const double d = value_at(part_.distance, z);
       if (d < kEnclosing || d > outer_) return false;
-      const double to_gap = to_gaps_ ? value_at(*to_gaps_, z) : HUGE_VAL;
+      const double to_gap = std::min(to_gaps_ ? value_at(*to_gaps_, z) : HUGE_VAL,
+                                     to_middle(d, value_at(part_.to_rivals, z)));
       if (part_of_way(d, to_gap) > kOuter) return false;
       step = std::clamp(to_gap, kShortest, kLongest);
     }
@@ -200,9 +160,13 @@ class Band {
   /// How far a point is on the way from the part to the middle of a gap. Gaps of one or two cells
   /// are ignored, because they have no room for two edges of the cage.
   static double part_of_way(double d, double to_gap) { return d > kTurning ? d / (d + to_gap) : 0; }
+  /// The distance to the middle between this part and another one.
+  static double to_middle(double own, double to_rival) {
+    return std::max(0.0, 0.5 * (to_rival - own));
+  }
   static constexpr double kTurning = 1.05;
 
-  const Part& part_;
+  const PartGrid& part_;
   const Grid<float>* to_gaps_;
   double outer_, middle_;
 };
@@ -237,7 +201,8 @@ Points polygon_in(const Band& band, const Points& curve, bool thorough = false) 
 
 /// A simple polygon with at most `most` vertices around the part. Its margin grows if there would
 /// be more vertices, and shrinks if edges would cross. If nothing else helps, limbs are joined.
-Points tight_polygon(const Part& part, const Grid<float>* to_gaps, double usual_margin, int most) {
+Points tight_polygon(const PartGrid& part, const Grid<float>* to_gaps, double usual_margin,
+                     int most) {
   constexpr int kTries = 10;
   const double largest_margin = std::max(0.5, (part.border - 4) / 2.0);  // the grid ends there
   double margin = usual_margin;
@@ -262,7 +227,8 @@ Points tight_polygon(const Part& part, const Grid<float>* to_gaps, double usual_
 constexpr double kLeastHole = 3;  ///< depth in cells; shallower regions have no room for a polygon
 
 /// Polygons in the enclosed regions that become holes, with at most `most` vertices in all.
-std::vector<Points> hole_polygons(const Part& part, double margin, double least_width, int most) {
+std::vector<Points> hole_polygons(const PartGrid& part, double margin, double least_width,
+                                  int most) {
   const double least = std::max(kLeastHole, 0.5 * least_width);
   std::vector<Points> polygons;
   size_t vertices = 0;
@@ -297,10 +263,59 @@ Cage rounded(Cage cage) {
   return cage;
 }
 
+/// What one part may use of the vertices and holes that a scene can have.
+struct Room {
+  int vertices = 0, holes = static_cast<int>(kMaxHoles);
+};
+
+/// The outline and the holes of a part. `relative` is its size in units of the largest part's.
+Cage cage_around(const PartGrid& part, const AutoCageOptions& options, double relative,
+                 double usual, Room& room) {
+  // Curves need more room than polygons.
+  const double tight = (options.curved ? 3 : 1) * usual * part.size,
+               margin = std::max(0.5, options.margin ? *options.margin / part.scale : tight);
+  const std::optional<Grid<float>> gaps =
+      options.margin || options.curved ? std::nullopt : distance_to_gaps(part, 3 * margin + 4);
+  const Grid<float>* to_gaps = gaps ? &*gaps : nullptr;
+  const auto in_picture = [&](Points points) {
+    for (Complex& z : points) z = part.in_picture(z);
+    return points;
+  };
+  std::vector<Points> holes =
+      hole_polygons(part, margin, 0.01 * options.hole_width * part.size, room.vertices / 2);
+  if (holes.size() > static_cast<size_t>(room.holes)) holes.resize(static_cast<size_t>(room.holes));
+  room.holes -= static_cast<int>(holes.size());
+  int left = room.vertices;
+  for (const Points& hole : holes) left -= static_cast<int>(hole.size());
+  Band band(part, to_gaps, margin);
+  const double usual_vertices = 30 * std::exp2(options.detail / 50 - 1),
+               wanted = options.vertices ? *options.vertices : usual_vertices;
+  const int vertices =
+      std::clamp(static_cast<int>(std::lround(wanted * relative)), 3, room.vertices);
+  Cage cage;
+  if (options.curved) {
+    const double kept = std::max(kEnclosing, kEdge + 0.45 * margin),
+                 outer = std::max(kept + 0.5, kEdge + margin);
+    cage = curves_around(thinned(in_picture(band.curve_at(outer))),
+                         thinned(in_picture(level_curve(part.distance, kept))), vertices);
+  } else if (options.vertices) {
+    band.narrow();
+    const Points polygon = polygon_in(band, band.middle());
+    cage =
+        polygon_cage(simplified_around(in_picture(self_crossing(polygon) ? band.middle() : polygon),
+                                       in_picture(band.inner()), vertices));
+  } else {
+    cage = polygon_cage(in_picture(tight_polygon(part, to_gaps, margin, left)));
+  }
+  for (const Points& hole : holes)
+    add_hole(cage, reversed(polygon_cage(in_picture(hole))).segments);
+  return cage;
+}
+
 }  // namespace
 
 Cage auto_cage(const Image& image, const AutoCageOptions& options) {
-  constexpr int kMostVertices = 500;
+  constexpr int kMostVertices = 500, kMostInAll = 4500;
   if (options.vertices && (*options.vertices < 3 || *options.vertices > kMostVertices))
     throw Error(ErrorKind::bad_input,
                 "a cage has 3 to 500 vertices, not " + std::to_string(*options.vertices));
@@ -315,44 +330,27 @@ Cage auto_cage(const Image& image, const AutoCageOptions& options) {
   // Half a percent of the size at medium detail, a quarter of that or four times as much at the
   // ends of the slider.
   const double usual = 0.005 * std::pow(4, 1 - options.detail / 50);
-  const auto part = part_of(image, 4 * usual, 2 * options.margin.value_or(1));
-  if (!part) return polygon_cage(rectangle(image, std::max(0.0, options.margin.value_or(0))));
-  // Curves need more room than polygons.
-  const double tight = (options.curved ? 3 : 1) * usual * part->size,
-               margin = std::max(0.5, options.margin ? *options.margin / part->scale : tight);
-  const std::optional<Grid<float>> gaps =
-      options.margin || options.curved ? std::nullopt : distance_to_gaps(*part, 3 * margin + 4);
-  const Grid<float>* to_gaps = gaps ? &*gaps : nullptr;
-  const auto in_picture = [&](Points points) {
-    for (Complex& z : points) z = part->in_picture(z);
-    return points;
+  const auto cage_of = [&](PartChoice choice) {
+    const std::vector<PartGrid> parts =
+        part_grids(image, choice, 4 * usual, 2 * options.margin.value_or(1));
+    if (parts.empty())
+      return polygon_cage(rectangle(image, std::max(0.0, options.margin.value_or(0))));
+    Room room;
+    room.vertices = std::min(kMostVertices, kMostInAll / static_cast<int>(parts.size()));
+    Cage all;
+    for (const PartGrid& part : parts) {
+      const Cage cage = cage_around(part, options, part.size / parts[0].size, usual, room);
+      if (all.size() == 0)
+        all = cage;
+      else
+        add_part(all, cage);
+    }
+    const Cage round = rounded(all);
+    return rest_fault(round) ? all : round;
   };
-  const std::vector<Points> holes =
-      hole_polygons(*part, margin, 0.01 * options.hole_width * part->size, kMostVertices / 2);
-  int left = kMostVertices;
-  for (const Points& hole : holes) left -= static_cast<int>(hole.size());
-  Band band(*part, to_gaps, margin);
-  const int usual_vertices = static_cast<int>(std::lround(30 * std::exp2(options.detail / 50 - 1))),
-            vertices = options.vertices.value_or(usual_vertices);
-  Cage cage;
-  if (options.curved) {
-    const double kept = std::max(kEnclosing, kEdge + 0.45 * margin),
-                 outer = std::max(kept + 0.5, kEdge + margin);
-    cage = curves_around(thinned(in_picture(level_curve(part->distance, outer))),
-                         thinned(in_picture(level_curve(part->distance, kept))), vertices);
-  } else if (options.vertices) {
-    band.narrow();
-    const Points polygon = polygon_in(band, band.middle());
-    cage =
-        polygon_cage(simplified_around(in_picture(self_crossing(polygon) ? band.middle() : polygon),
-                                       in_picture(band.inner()), vertices));
-  } else {
-    cage = polygon_cage(in_picture(tight_polygon(*part, to_gaps, margin, left)));
-  }
-  for (const Points& hole : holes)
-    add_hole(cage, reversed(polygon_cage(in_picture(hole))).segments);
-  Cage round = rounded(cage);
-  return rest_fault(round) ? cage : round;
+  const Cage cage = cage_of(options.parts);
+  return options.parts == PartChoice::apart && rest_fault(cage) ? cage_of(PartChoice::joined)
+                                                                : cage;
 }
 
 }  // namespace holomorph

@@ -41,7 +41,8 @@ void check_point(const std::string& what, Complex z) {
 
 void check_cage(const std::string& what, const Cage& cage) {
   check_count("segments in " + what, cage.segments.size(), kMaxSegments);
-  check_count("holes in " + what, cage.holes.size(), kMaxHoles);
+  check_count("holes in " + what, cage.starts.size() - cage.parts.size(), kMaxHoles);
+  check_count("parts in " + what, cage.parts.size() + 1, kMaxParts);
   for (const Points& segment : cage.segments) {
     if (segment.empty()) fail(what + " has a segment without control points");
     if (segment.size() > kHighestDegree)
@@ -152,7 +153,7 @@ bool has_extras(const Deformation& deformation) {
   const auto kept = [](const auto& part) { return !part.extra.empty(); };
   const auto kept_in_pose = [](const Keyframe& key) { return !key.pose_extra.empty(); };
   return !deformation.cage_extra.empty() || !deformation.method_extra.empty() ||
-         (deformation.surface && kept(*deformation.surface)) || !deformation.hole_extras.empty() ||
+         (deformation.surface && kept(*deformation.surface)) || !deformation.loop_extras.empty() ||
          std::ranges::any_of(deformation.pins, kept) ||
          std::ranges::any_of(deformation.strokes, kept) ||
          std::ranges::any_of(deformation.corners, kept) ||

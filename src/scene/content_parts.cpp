@@ -48,21 +48,27 @@ std::vector<Run> joined_runs_of(const Grid<std::uint8_t>& mask) {
   return runs;
 }
 
-/// The parts of a mask. Each run belongs to the part that its root stands for.
-struct Parts {
-  std::vector<Run> runs;
-  std::vector<size_t> sizes;  ///< number of cells, at the indices of the roots
-  size_t largest = 0;         ///< its root; 0 if there are no runs
+}  // namespace
 
-  explicit Parts(const Grid<std::uint8_t>& mask) : runs(joined_runs_of(mask)) {
-    sizes.assign(runs.size(), 0);
-    for (size_t i = 0; i < runs.size(); ++i)
-      sizes[root(i)] += static_cast<size_t>(runs[i].end - runs[i].begin);
-    if (!runs.empty())
-      largest = static_cast<size_t>(std::ranges::max_element(sizes) - sizes.begin());
+MaskParts parts_of_mask(const Grid<std::uint8_t>& mask) {
+  std::vector<Run> runs = joined_runs_of(mask);
+  std::map<size_t, size_t> size_of_root;
+  for (size_t i = 0; i < runs.size(); ++i)
+    size_of_root[root_of(runs, i)] += static_cast<size_t>(runs[i].end - runs[i].begin);
+  std::vector<std::pair<size_t, size_t>> roots(size_of_root.begin(), size_of_root.end());
+  std::ranges::stable_sort(roots, std::greater<>{}, &std::pair<size_t, size_t>::second);
+  MaskParts parts{{}, {mask.width, mask.height, -1}};
+  std::map<size_t, int> number_of_root;
+  for (const auto& [root, size] : roots) {
+    number_of_root[root] = static_cast<int>(parts.sizes.size());
+    parts.sizes.push_back(size);
   }
-  size_t root(size_t run) { return root_of(runs, run); }
-};
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const int number = number_of_root.at(root_of(runs, i));
+    for (int c = runs[i].begin; c < runs[i].end; ++c) parts.label(c, runs[i].row) = number;
+  }
+  return parts;
+}
 
 Grid<std::uint8_t> content_of(const Image& image) {
   Grid<std::uint8_t> mask(image.width, image.height, 0);
@@ -71,44 +77,44 @@ Grid<std::uint8_t> content_of(const Image& image) {
   return mask;
 }
 
-}  // namespace
-
 std::vector<std::uint8_t> largest_part(const Image& image) {
-  Grid<std::uint8_t> mask = content_of(image);
-  Parts parts(mask);
-  for (size_t i = 0; i < parts.runs.size(); ++i)
-    if (const Run& run = parts.runs[i]; parts.root(i) != parts.largest)
-      for (int c = run.begin; c < run.end; ++c) mask(c, run.row) = 0;
-  return parts.runs.empty() ? std::vector<std::uint8_t>{} : std::move(mask.cells);
+  const MaskParts parts = parts_of_mask(content_of(image));
+  if (parts.sizes.empty()) return {};
+  std::vector<std::uint8_t> mask;
+  for (const int label : parts.label.cells) mask.push_back(label == 0);
+  return mask;
 }
 
-std::vector<Box> smaller_parts(const Image& image) {
+std::vector<Box> parts_outside(const Image& image, const Cage& cage) {
   constexpr size_t kSpeck = 1000;  // parts that are so many times smaller cannot be seen
   if (is_opaque(image)) return {};
-  Parts parts(content_of(image));
-  std::map<size_t, Box> boxes;
-  for (size_t i = 0; i < parts.runs.size(); ++i) {
-    const size_t root = parts.root(i);
-    if (root == parts.largest || kSpeck * parts.sizes[root] < parts.sizes[parts.largest]) continue;
-    const Run& run = parts.runs[i];
-    const double top = image.height - run.row;
-    boxes[root].include(Complex(run.begin, top - 1));
-    boxes[root].include(Complex(run.end, top));
-  }
-  std::vector<std::pair<size_t, Box>> by_size;
-  for (const auto& [root, box] : boxes) by_size.emplace_back(parts.sizes[root], box);
-  std::ranges::stable_sort(by_size, std::greater<>{}, &std::pair<size_t, Box>::first);
+  const MaskParts parts = parts_of_mask(content_of(image));
+  std::vector<Box> boxes(parts.sizes.size());
+  std::vector<size_t> inside(parts.sizes.size(), 0), looked_at = inside;
+  const Polygon outline = outline_of(cage);
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c) {
+      const int label = parts.label(c, r);
+      if (label < 0 || kSpeck * parts.sizes[static_cast<size_t>(label)] < parts.sizes[0]) continue;
+      const size_t part = static_cast<size_t>(label);
+      const double top = image.height - r;
+      boxes[part].include(Complex(c, top - 1));
+      boxes[part].include(Complex(c + 1, top));
+      constexpr size_t kMost = 100;  // pixels of a part that are looked at
+      if (static_cast<size_t>(c + r) % (1 + parts.sizes[part] / kMost) != 0) continue;
+      ++looked_at[part];
+      inside[part] += encloses(outline, Complex(c + 0.5, top - 0.5));
+    }
   std::vector<Box> found;
-  for (const auto& [size, box] : by_size) found.push_back(box);
+  for (size_t part = 0; part < boxes.size(); ++part)
+    if (looked_at[part] > 2 * inside[part]) found.push_back(boxes[part]);
   return found;
 }
 
 std::string left_out_text(size_t parts) {
   if (parts == 0) return "";
-  return "The cage holds the largest part; " +
-         (parts == 1 ? "another part of the picture stays"
-                     : std::to_string(parts) + " other parts of the picture stay") +
-         " outside.";
+  return parts == 1 ? "A part of the picture stays outside the cage."
+                    : std::to_string(parts) + " parts of the picture stay outside the cage.";
 }
 
 }  // namespace holomorph

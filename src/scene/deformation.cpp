@@ -48,7 +48,8 @@ Pose pose_of(const Deformation& deformation) {
 // If a pose has no corners, it was stored before the list of corners existed. All corners are then
 // at rest.
 bool fits(const Deformation& deformation, const Pose& pose) {
-  return pose.cage.size() == deformation.rest.size() && pose.cage.holes == deformation.rest.holes &&
+  return pose.cage.size() == deformation.rest.size() &&
+         pose.cage.starts == deformation.rest.starts && pose.cage.parts == deformation.rest.parts &&
          pose.pins.size() == deformation.pins.size() &&
          pose.strokes.size() == deformation.strokes.size() &&
          (pose.corners.empty() || pose.corners.size() == deformation.corners.size());
@@ -87,7 +88,7 @@ Deformation at_rest(Deformation deformation) {
 Deformation with_cage(Deformation deformation, Cage cage) {
   deformation.rest = std::move(cage);
   deformation.corners.clear();  // the vertices have changed
-  deformation.hole_extras.clear();
+  deformation.loop_extras.clear();
   return at_rest(std::move(deformation));
 }
 

@@ -91,7 +91,7 @@ struct Deformation {
   /// The parameters of previously used methods, by method id.
   std::map<std::string, Parameters> other_parameters = {};
   Extra cage_extra = {}, method_extra = {};
-  std::vector<Extra> hole_extras = {};  ///< one for each hole, or none
+  std::vector<Extra> loop_extras = {};  ///< one for each loop of the cage but the first, or none
 
   bool has_cage() const { return rest.size() > 0; }
   bool operator==(const Deformation&) const = default;

@@ -16,7 +16,7 @@ constexpr double kSlack = 0.015;       ///< how far a cage may cut into a cut-ou
 constexpr double kMargin = 2;          ///< around faint pixels, in pixels
 
 Polygon boundary_of(const Mesh& mesh) {
-  Polygon polygon{{}, mesh.holes};
+  Polygon polygon{{}, mesh.starts};
   for (const int v : mesh.boundary) polygon.points.push_back(mesh.vertices[static_cast<size_t>(v)]);
   return polygon;
 }

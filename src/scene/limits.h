@@ -10,6 +10,7 @@ inline constexpr size_t kMaxLayers = 100;
 inline constexpr int kMaxImageSide = 1 << 20;  ///< pixels
 inline constexpr size_t kMaxSegments = 5000;   ///< in one cage
 inline constexpr size_t kMaxHoles = 100;       ///< in one cage
+inline constexpr size_t kMaxParts = 100;       ///< of one cage
 inline constexpr size_t kMaxPins = 2000, kMaxStrokes = 200;
 inline constexpr size_t kMaxCurvePoints = 20000;  ///< in one stroke or outline
 inline constexpr int kMaxId = 1'000'000'000;      ///< of layers, pins and strokes

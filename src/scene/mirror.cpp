@@ -19,7 +19,8 @@ size_t counterpart(const Mirror& mirror, const Points& positions, Complex z, con
 Cage mirrored_cage(const Mirror& mirror, const Cage& rest, const Cage& pose) {
   const Points vertices = vertices_of(rest);
   Cage result;
-  result.holes = rest.holes;
+  result.starts = rest.starts;
+  result.parts = rest.parts;
   for (Index e = 0; e < rest.size(); ++e) {
     // The mirrored cage usually runs in the opposite direction. The counterpart of segment e then
     // starts at the counterpart of the vertex where e ends. Two holes may run in either direction.

@@ -28,7 +28,7 @@ void check_coordinates(const Rest& rest, Index places) {
 
 /// Whether two cages describe the same curve, regardless of the degrees of straight segments.
 bool is_same_curve(const Cage& a, const Cage& b) {
-  return a == b || (a.holes == b.holes && vertices_of(a) == vertices_of(b) && is_straight(a) &&
+  return a == b || (a.starts == b.starts && vertices_of(a) == vertices_of(b) && is_straight(a) &&
                     is_straight(b));
 }
 

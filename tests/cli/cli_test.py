@@ -646,13 +646,13 @@ class CommandLine(Case):
         away = numpy.hypot(x - 100, y - 100)
         pixels = numpy.zeros((200, 240, 4), "uint8")
         pixels[(away < 90) & (away > 40)] = 255
-        pixels[90:110, 215:235] = 255  # another part
+        pixels[90:92, 215:226] = 255  # another part, too small to see
         Image.fromarray(pixels).save(picture)
         counts = []
         for detail in (0, 50, 100):
             out = self.path(f"{detail}.json")
             said = self.good("new", picture, "--out", out, "--detail", detail).stderr
-            self.assertIn("another part of the picture stays outside", said)
+            self.assertIn("A part of the picture stays outside", said)
             scene = json.load(open(out))
             self.assertEqual((scene["version"], len(scene["cage"]["holes"])), (3, 1))
             jsonschema.validate(scene, SCHEMA)
@@ -660,6 +660,27 @@ class CommandLine(Case):
         self.assertLess(counts[0], counts[2])
         self.good("new", picture, "--out", self.path("filled.json"), "--hole-width", 60)
         self.assertNotIn("holes", json.load(open(self.path("filled.json")))["cage"])
+        # A larger one is inside the cage, or has an outline of its own.
+        pixels[90:110, 215:235] = 255
+        Image.fromarray(pixels).save(picture)
+        for flag, method, parts in (((), "cage", 0), (("--parts",), "sheet", 1)):
+            out = self.path(f"{method}.json")
+            said = self.good("new", picture, "--out", out, *flag).stderr
+            self.assertNotIn("outside", said)
+            scene = json.load(open(out))
+            jsonschema.validate(scene, SCHEMA)
+            self.assertEqual(scene["method"]["id"], method)
+            self.assertEqual(len(scene["cage"].get("parts", [])), parts)
+            moved = self.path(f"{method}.csv")
+            open(moved, "w").write("100,20\n225,100\n")
+            self.good("map", out, "--points", moved)
+        # Pins move their part, and what is exported shows it.
+        scene["pins"] = [{"rest": [220, 95], "pose": [200, 40]}, {"rest": [230, 105], "pose": [210, 50]},
+                         {"rest": [100, 180]}, {"rest": [20, 100]}]
+        self.good("render", self.write("moved.json", {**scene, "image": {"file": "ring.png"}}), "--out",
+                  self.path("moved.png"))
+        drawn = numpy.asarray(Image.open(self.path("moved.png")))[..., 3]
+        self.assertEqual((drawn[155, 205], drawn[100, 225], drawn[15, 100]), (255, 0, 255))
         for option in ("--detail", "--hole-width"):
             for wrong in (-1, 101, "nan"):
                 self.bad("new", "--force", picture, "--out", self.path("x.json"), option, wrong, says=option)

@@ -97,21 +97,45 @@ TEST_CASE("A press sets the first pin, and the same drag moves it") {
   CHECK(desk.workspace.document.history().index() == 1);
 }
 
-TEST_CASE("The first pin says how many parts of the picture the cage leaves out") {
+TEST_CASE("The first pin gives each part of the picture an outline, and says what is left out") {
   TestWorkspace desk;
   Image image(200, 100);
   for (int r = 20; r < 80; ++r)
     for (int c = 10; c < 190; ++c)
       if (c < 100 || (c > 120 && c < 140) || c > 160) image.at(c, r)[3] = 255;
+  for (int c = 10; c < 16; ++c) image.at(c, 5)[3] = 255;  // too small to see
   const Folder folder;
   const Path picture = folder.path / "parts.png";
   write_file(picture, encode_png(image));
   desk.workspace.open(Document::open(picture));
   desk.workspace.tools.active = ToolId::pin;
-  desk.click({50, 50});
-  REQUIRE(desk.workspace.shown.deformation().has_cage());
+  desk.click({175, 50});
+  const auto shown = [&desk] { return desk.workspace.shown.deformation(); };
+  CHECK(shown().rest.part_count() == 3);
+  CHECK(shown().method == "sheet");
+  CHECK(PartFinder(shown().rest).at(shown().pins.at(0).rest) > 0);
   REQUIRE(desk.workspace.messages.toasts.size() == 1);
-  CHECK_THAT(desk.workspace.messages.toasts[0].text, Catch::Contains("2 other parts"));
+  CHECK_THAT(desk.workspace.messages.toasts[0].text,
+             Catch::Contains("A part of the picture stays"));
+
+  // Pins act on their part, and other parts follow.
+  desk.click({50, 40});
+  desk.click({50, 60});
+  desk.press({50, 60});
+  for (int i = 1; i <= 5; ++i) desk.move({50.0 + 2 * i, 60.0 + i});
+  desk.release({60, 65});
+  CHECK(shown().pins.size() == 3);
+  CHECK(shown().pins[2].pose == Complex(60, 65));
+  desk.settle();
+  CHECK(desk.workspace.map().map().status == SampledMap::Status::certified);
+
+  // Another method has one outline around everything, and undo brings the parts back.
+  const Cage parts = shown().rest;
+  choose_method(desk.workspace, "pins");
+  CHECK(shown().rest.part_count() == 1);
+  CHECK(shown().pins.size() == 3);
+  run("edit.undo", desk.workspace);
+  CHECK(shown().rest == parts);
 }
 
 TEST_CASE("A click beside the picture's content makes nothing") {

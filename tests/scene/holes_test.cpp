@@ -75,7 +75,7 @@ Image picture(int width, int height, IsIn is_in) {
 TEST_CASE("Holes survive writing and reading, with keyframes and unknown keys") {
   const Scene scene = scene_from_json(kText, "scene.json");
   const Deformation& deformation = scene.deformation();
-  CHECK(deformation.rest.holes == std::vector<Index>{4, 7});
+  CHECK(deformation.rest.starts == std::vector<Index>{4, 7});
   CHECK(deformation.pose.degree(5) == 3);
   CHECK(loop_of(deformation.pose, 2) == loop_of(deformation.rest, 2));
   CHECK(playing_keys(deformation).size() == 2);
@@ -93,7 +93,7 @@ TEST_CASE("Holes survive writing and reading, with keyframes and unknown keys") 
       for (Keyframe& key : changed.keyframes) erase_hole(key.pose.cage, loop);
       for (Cage* cage : {&changed.rest, &changed.pose}) erase_hole(*cage, loop);
     }
-    changed.hole_extras.clear();
+    changed.loop_extras.clear();
   });
   CHECK_THAT(json_of(plain), Catch::Contains("\"version\": 1") && !Catch::Contains("holes"));
   CHECK(scene_from_json(json_of(plain), "plain") == plain);
@@ -125,13 +125,13 @@ TEST_CASE("SVG: holes are subpaths, in any order, and are read back") {
   const std::string svg = svg_of(deformation, {});
   CHECK(cage_of_svg(svg, "a.svg", 0, PathUse::rest) == deformation.rest);
   const Cage pose = cage_of_svg(svg, "a.svg", 0, PathUse::pose);
-  CHECK(pose.holes == deformation.pose.holes);
+  CHECK(pose.starts == deformation.pose.starts);
   for (Index e = 0; e < pose.size(); ++e)
     CHECK(std::abs(pose.vertex(e) - deformation.pose.vertex(e)) < 1e-9);
   const Cage drawn = cage_of_svg(
       "<svg height='100'><path d='m20 20h20v20z m-10 -10 h60 v60 h-60 Z m 50 50 h5 v5 Z'/></svg>",
       "b.svg", 0);
-  CHECK(drawn.holes == std::vector<Index>{4, 7});
+  CHECK(drawn.starts == std::vector<Index>{4, 7});
   CHECK(drawn.vertex(0) == Complex(10, 90));
   CHECK(drawn.vertex(4) == Complex(20, 80));
   CHECK(drawn.vertex(7) == Complex(60, 40));
@@ -140,7 +140,7 @@ TEST_CASE("SVG: holes are subpaths, in any order, and are read back") {
   const Cage curved = cage_of_svg(
       "<svg><path d='M0 0 C0 30 0 60 0 90 L90 90 L90 0 Z M20 20 S30 50 40 20 L30 10 Z'/></svg>",
       "c.svg", 0, PathUse::pose);
-  REQUIRE(curved.holes == std::vector<Index>{4});
+  REQUIRE(curved.starts == std::vector<Index>{4});
   CHECK(curved.controls(4)[1] == curved.controls(4)[0]);
   CHECK_THAT(error_message_of([&] {
                cage_of_svg("<svg><path d='M0 0h9v9z M2 2h2v2z'/></svg>", "c.svg", 0,
@@ -200,27 +200,27 @@ TEST_CASE("The automatic cage keeps holes that are wide enough and empty") {
   const Image image = picture(300, 240, ring);
   const Cage cage = auto_cage(image);
   check_rest_cage(cage);
-  REQUIRE(cage.holes.size() == 1);
+  REQUIRE(cage.starts.size() == 1);
   const Covered kept = covered(image, cage);
   CHECK(kept.lost == 0);
   CHECK(kept.empty_inside < 0.1 * kPi * 100 * 100);
   // The hole is 100 px wide; the content's size is 283 px.
-  CHECK(auto_cage(image, {.hole_width = 30}).holes.size() == 1);
-  CHECK(auto_cage(image, {.hole_width = 40}).holes.empty());
-  CHECK(auto_cage(image, {.hole_width = 100}).holes.empty());
+  CHECK(auto_cage(image, {.hole_width = 30}).starts.size() == 1);
+  CHECK(auto_cage(image, {.hole_width = 40}).starts.empty());
+  CHECK(auto_cage(image, {.hole_width = 100}).starts.empty());
   for (const AutoCageOptions& options :
        {AutoCageOptions{.vertices = 12}, AutoCageOptions{.margin = 4},
         AutoCageOptions{.curved = true}, AutoCageOptions{.detail = 0},
         AutoCageOptions{.detail = 100}}) {
     const Cage other = auto_cage(image, options);
     check_rest_cage(other);
-    CHECK(other.holes.size() == 1);
+    CHECK(other.starts.size() == 1);
     CHECK(covered(image, other).lost == 0);
   }
   // Something in the hole must stay inside the cage.
   const Image eye =
       picture(300, 240, [&](Complex z) { return ring(z) || std::abs(z - Complex(165, 120)) < 8; });
-  CHECK(auto_cage(eye).holes.empty());
+  CHECK(auto_cage(eye).starts.empty());
   CHECK_THROWS_AS(auto_cage(image, {.hole_width = -1}), Error);
   CHECK_THROWS_AS(auto_cage(image, {.hole_width = NAN}), Error);
 }
@@ -264,18 +264,18 @@ TEST_CASE("The automatic cage has a valid hole for each of any number of random 
     CHECK(covered(image, cage).lost == 0);
     size_t wide = 0;
     for (const Opening& opening : openings) wide += opening.width > 9;
-    CHECK(cage.holes.size() >= wide);
-    CHECK(cage.holes.size() <= openings.size());
+    CHECK(cage.starts.size() >= wide);
+    CHECK(cage.starts.size() <= openings.size());
     const double percent = 100 * 15 / size;
     size_t clearly = 0, perhaps = 0;
     for (const Opening& opening : openings) {
       clearly += opening.width > 17;
       perhaps += opening.width > 13;
     }
-    const size_t kept = auto_cage(image, {.hole_width = percent}).holes.size();
+    const size_t kept = auto_cage(image, {.hole_width = percent}).starts.size();
     CHECK(kept >= clearly);
     CHECK(kept <= perhaps);
-    CHECK(domain_mesh(cage, {500}).holes.size() == cage.holes.size());
+    CHECK(domain_mesh(cage, {500}).starts.size() == cage.starts.size());
   }
 }
 

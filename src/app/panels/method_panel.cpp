@@ -75,7 +75,8 @@ void settings(Workspace& workspace) {
   const Parameters chosen = chosen_parameters(deformation);
   const ScopedLabelWidth wide(px(104));
   for (const ParameterSpec& spec : method.parameters)
-    if (is_used(method, chosen, spec)) parameter_row(workspace, method, spec);
+    if (is_used(method, chosen, spec) && (!spec.needs_parts || !deformation.rest.parts.empty()))
+      parameter_row(workspace, method, spec);
   if (!prevents_folds(deformation)) return;
   const Method& bounded = method_named(deformation.method);
   if (!bounded.presets.empty()) preset_row(workspace, deformation, bounded);

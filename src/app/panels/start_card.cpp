@@ -16,6 +16,7 @@
 #include "edit/actions/icons.h"
 #include "edit/content.h"
 #include "edit/method_choice.h"
+#include "edit/picture_cage.h"
 
 namespace holomorph {
 namespace {
@@ -160,8 +161,9 @@ void StartCard::update_outline(const Workspace& workspace) {
     if (result_->cage) outline_ = std::move(*std::exchange(result_->cage, std::nullopt));
   }
   if (job_ && job_->ended()) job_.reset();
-  const AutoCageOptions& options = workspace.tools.auto_cage;
-  const Question question{picture_of(workspace), options.detail, options.curved};
+  AutoCageOptions options = workspace.tools.auto_cage;
+  if (method_of_first_pin(workspace).allows_parts) options.parts = PartChoice::apart;
+  const Question question{picture_of(workspace), options.detail, options.curved, options.parts};
   if (job_ || asked_ == question) return;
   if (!asked_ || asked_->image != question.image) outline_.reset();
   asked_ = question;

@@ -41,6 +41,7 @@ class StartCard {
     std::shared_ptr<const Image> image;
     double detail = 0;
     bool curved = false;
+    PartChoice parts = PartChoice::joined;
     bool operator==(const Question&) const = default;
   };
   std::function<void()> wake_;

@@ -129,7 +129,7 @@ void draw_status_bar(Workspace& workspace, const StatusLine& status, const Panel
     if (const auto where = map.error()->where(); where && button("Show me"))
       workspace.center_on(*where);
     const Deformation& deformation = workspace.shown.deformation();
-    if (!deformation.rest.holes.empty() && !method_named(deformation.method).allows_holes &&
+    if (deformation.rest.has_holes() && !method_named(deformation.method).allows_holes &&
         button("Fill holes"))
       run("cage.fill", workspace);
   } else {

@@ -231,8 +231,8 @@ HilbertCoordinates::Samples HilbertCoordinates::samples() const {
 Cage HilbertCoordinates::divided() const {
   Cage boundary;
   for (const auto& [segment, from, to] : pieces_) {
-    if (from == 0 && std::ranges::binary_search(cage_.holes, segment))
-      boundary.holes.push_back(boundary.size());
+    if (from == 0 && std::ranges::binary_search(cage_.starts, segment))
+      boundary.starts.push_back(boundary.size());
     Points controls = part_of(cage_.controls(segment), from, to);
     controls = elevated(controls, std::max(kDegree, static_cast<int>(controls.size()) - 1));
     controls.pop_back();

@@ -22,7 +22,7 @@ Polygon mitered(const Polygon& polygon, const std::vector<double>& distances) {
   const PolygonView view = polygon;
   const Loops loops = view.loops();
   constexpr double kLongest = 12;  // length of a miter, in units of the distance
-  Polygon outer{{}, polygon.holes};
+  Polygon outer{{}, polygon.starts};
   for (Index i = 0; i < view.size(); ++i) {
     const Complex before = view[i] - view[loops.before(i)], after = view[loops.next(i)] - view[i];
     const Complex u = -kI * before / std::abs(before), v = -kI * after / std::abs(after);
@@ -97,7 +97,7 @@ Polygon starts_of(const Cage& domain, const std::vector<BoundaryPiece>& pieces) 
   Polygon starts;
   for (size_t i = 0; i < pieces.size(); ++i) {
     if (i > 0 && loops.loop_of(pieces[i].segment) != loops.loop_of(pieces[i - 1].segment))
-      starts.holes.push_back(static_cast<Index>(i));
+      starts.starts.push_back(static_cast<Index>(i));
     starts.points.push_back(pieces[i].start);
   }
   return starts;

@@ -8,7 +8,7 @@
 
 namespace holomorph {
 
-Inside::Inside(const Cage& cage) : chords_{vertices_of(cage), cage.holes} {
+Inside::Inside(const Cage& cage) : chords_{vertices_of(cage), cage.starts} {
   for (Index e = 0; e < cage.size(); ++e) segments_.emplace_back(cage.controls(e));
 }
 
@@ -39,9 +39,9 @@ int Inside::winding(Index loop, Complex z) const {
 bool Inside::contains(Complex z) const {
   if (contact_of(segments_, z)) return true;
   const Index loops = PolygonView(chords_).loops().count();
-  for (Index l = 0; l < loops; ++l)
-    if ((winding(l, z) != 0) != (l == 0)) return false;
-  return true;
+  int around = 0;
+  for (Index l = 0; l < loops; ++l) around += winding(l, z) != 0;
+  return around % 2 == 1;
 }
 
 bool contains(const Cage& cage, Complex z) {

@@ -32,7 +32,7 @@ class Comparison {
  public:
   Comparison(const Rest& rest, const Pose& pose, std::stop_token stop)
       : rest_(rest), pose_(pose), mesh_(mesh_of(rest)), method_(usual_method(MethodUse::bounds)) {
-    if (!rest.cage.holes.empty())
+    if (!rest.cage.starts.empty())
       throw Error(ErrorKind::bad_input,
                   "the other methods cannot be compared in a cage with holes; fill the holes");
     settings_ = {bounds_of(rest.parameters), std::move(stop)};

@@ -93,7 +93,7 @@ void compare_isometric(const Rest& given, const Pose& pose,
     ComparedMap own = by_method(method_named("puppet"), rest, pose, stop);
     own.label += " (this program)";
     add(std::move(own));
-    if (rest.cage.holes.empty()) add(by_chen_weber(rest, pose, pins, stop));
+    if (rest.cage.starts.empty()) add(by_chen_weber(rest, pose, pins, stop));
     for (const char* id : {"arap", "har_arap", "pins"})
       add(by_method(method_named(id), rest, pose, stop));
   } catch (const Stopped&) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/error.h"
 #include "core/geometry/segment.h"
@@ -33,7 +34,7 @@ Cage polygon_cage(PolygonView polygon) {
   Cage cage;
   for (const Complex& z : polygon.points()) cage.segments.push_back({z});
   for (Index l = 1; l < polygon.loops().count(); ++l)
-    cage.holes.push_back(polygon.loops().first(l));
+    cage.starts.push_back(polygon.loops().first(l));
   return cage;
 }
 
@@ -56,16 +57,17 @@ void check_same_loops(const Cage& rest, const Cage& pose) {
     throw Error(ErrorKind::bad_input, "the posed cage has " + std::to_string(pose.size()) +
                                           " segments, but the rest cage has " +
                                           std::to_string(rest.size()) + "; they must agree");
-  if (pose.holes != rest.holes)
+  if (pose.starts != rest.starts || pose.parts != rest.parts)
     throw Error(ErrorKind::bad_input,
-                "the holes of the posed cage do not have as many segments as those of the rest "
-                "cage; they must agree");
+                "the holes and parts of the posed cage do not have as many segments as those of "
+                "the rest cage; they must agree");
 }
 
 Cage elevated_to(const Cage& cage, const Cage& other) {
   check_same_loops(cage, other);
   Cage raised;
-  raised.holes = cage.holes;
+  raised.starts = cage.starts;
+  raised.parts = cage.parts;
   for (Index i = 0; i < cage.size(); ++i) {
     Points curve = elevated(cage.controls(i), std::max(cage.degree(i), other.degree(i)));
     curve.pop_back();
@@ -77,8 +79,8 @@ Cage elevated_to(const Cage& cage, const Cage& other) {
 Polygon outline_of(const Cage& cage, int per_curve) {
   Polygon outline;
   for (Index i = 0; i < cage.size(); ++i) {
-    if (std::ranges::binary_search(cage.holes, i))
-      outline.holes.push_back(static_cast<Index>(outline.points.size()));
+    if (std::ranges::binary_search(cage.starts, i))
+      outline.starts.push_back(static_cast<Index>(outline.points.size()));
     outline.points.push_back(cage.vertex(i));
     if (cage.degree(i) == 1) continue;
     const Points controls = cage.controls(i);
@@ -118,6 +120,16 @@ Complex point_inside_vertex(const Cage& cage, Complex z) {
   return z;
 }
 
+namespace {
+
+/// Moves the starts of loops after a segment by a number of segments.
+void move_starts(Cage& cage, Index segment, Index by) {
+  for (std::vector<Index>* starts : {&cage.starts, &cage.parts})
+    for (Index& start : *starts) start += start > segment ? by : 0;
+}
+
+}  // namespace
+
 void insert_vertex(Cage& cage, Index segment, double t) {
   check(segment >= 0 && segment < cage.size() && t > 0 && t < 1, "insert_vertex: on a segment");
   SplitCurve halves = split(cage.controls(segment), t);
@@ -125,7 +137,7 @@ void insert_vertex(Cage& cage, Index segment, double t) {
   halves.after.pop_back();
   cage.segments[segment] = std::move(halves.before);
   cage.segments.insert(cage.segments.begin() + segment + 1, std::move(halves.after));
-  for (Index& hole : cage.holes) hole += hole > segment ? 1 : 0;
+  move_starts(cage, segment, 1);
 }
 
 double joint_parameter(const Cage& cage, Index vertex) {
@@ -162,20 +174,50 @@ void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit) {
     cage.segments[before] = std::move(curve);
   }
   cage.segments.erase(cage.segments.begin() + vertex);
-  for (Index& hole : cage.holes) hole -= hole > vertex ? 1 : 0;
+  move_starts(cage, vertex, -1);
 }
 
-void add_hole(Cage& cage, const std::vector<Points>& segments) {
-  cage.holes.push_back(cage.size());
-  cage.segments.insert(cage.segments.end(), segments.begin(), segments.end());
+void add_hole(Cage& cage, const std::vector<Points>& segments, Index part) {
+  const Index loop = loops_of_part(cage, part).end, at = cage.loops().end(loop - 1);
+  cage.segments.insert(cage.segments.begin() + at, segments.begin(), segments.end());
+  move_starts(cage, at - 1, static_cast<Index>(segments.size()));
+  cage.starts.insert(cage.starts.begin() + (loop - 1), at);
 }
 
 void erase_hole(Cage& cage, Index loop) {
-  check(loop >= 1 && loop < cage.loops().count(), "erase_hole: a hole");
+  check(loop >= 1 && loop < cage.loops().count() && cage.is_hole(loop), "erase_hole: a hole");
   const Index first = cage.loops().first(loop), length = cage.loops().length(loop);
   cage.segments.erase(cage.segments.begin() + first, cage.segments.begin() + first + length);
-  cage.holes.erase(cage.holes.begin() + (loop - 1));
-  for (Index& hole : cage.holes) hole -= hole > first ? length : 0;
+  cage.starts.erase(cage.starts.begin() + (loop - 1));
+  move_starts(cage, first, -length);
+}
+
+void add_part(Cage& cage, const Cage& part) {
+  cage.parts.push_back(cage.size());
+  for (Index l = 0; l < part.loops().count(); ++l)
+    cage.starts.push_back(cage.size() + part.loops().first(l));
+  cage.segments.insert(cage.segments.end(), part.segments.begin(), part.segments.end());
+}
+
+void erase_part(Cage& cage, Index part) {
+  check(cage.part_count() > 1 && part < cage.part_count(), "erase_part: one of several");
+  const Cage before = std::exchange(cage, part_of(cage, part == 0 ? 1 : 0));
+  for (Index other = part == 0 ? 2 : 1; other < before.part_count(); ++other)
+    if (other != part) add_part(cage, part_of(before, other));
+}
+
+LoopRange loops_of_part(const Cage& cage, Index part) {
+  const auto loop_at = [&](Index p) {
+    return p == 0 ? 0 : cage.loops().loop_of(cage.parts[static_cast<size_t>(p - 1)]);
+  };
+  return {loop_at(part), part + 1 < cage.part_count() ? loop_at(part + 1) : cage.loops().count()};
+}
+
+Cage part_of(const Cage& cage, Index part) {
+  const auto [first, end] = loops_of_part(cage, part);
+  Cage result = loop_of(cage, first);
+  for (Index loop = first + 1; loop < end; ++loop) add_hole(result, loop_of(cage, loop).segments);
+  return result;
 }
 
 Cage loop_of(const Cage& cage, Index loop) {
@@ -202,8 +244,8 @@ FlatCage flattened(const Cage& cage) {
   const double tolerance = kFlat * box_of(controls_of(cage)).diagonal();
   FlatCage flat;
   for (Index i = 0; i < cage.size(); ++i) {
-    if (std::ranges::binary_search(cage.holes, i))
-      flat.holes.push_back(static_cast<Index>(flat.points.size()));
+    if (std::ranges::binary_search(cage.starts, i))
+      flat.starts.push_back(static_cast<Index>(flat.points.size()));
     const Points controls = cage.controls(i);
     double bend = 0;  // upper bound on c'' / (n (n - 1)): the largest second difference
     for (size_t m = 0; m + 2 < controls.size(); ++m)
@@ -220,6 +262,22 @@ FlatCage flattened(const Cage& cage) {
     }
   }
   return flat;
+}
+
+PartFinder::PartFinder(const Cage& cage) {
+  for (Index part = 0; part < cage.part_count(); ++part)
+    outlines_.push_back(flattened(part_of(cage, part)));
+}
+
+Index PartFinder::at(Complex z) const {
+  Index best = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (size_t part = 0; part < outlines_.size() && outlines_.size() > 1; ++part) {
+    if (encloses(outlines_[part], z)) return static_cast<Index>(part);
+    const double distance = nearest_on_polygon(outlines_[part], z).distance;
+    if (distance < nearest) nearest = distance, best = static_cast<Index>(part);
+  }
+  return best;
 }
 
 BoundaryPoint FlatCage::on_edge(Index i, double t) const {
@@ -382,31 +440,44 @@ std::optional<Error> length_fault(const Cage& cage) {
   return {};
 }
 
-/// "the rest cage", "hole 2 of the rest cage".
-std::string loop_name(Index loop) {
-  return loop == 0 ? "the rest cage" : "hole " + std::to_string(loop) + " of the rest cage";
+/// "hole 2", "part 3", "hole 1 of part 3"; empty for the first part.
+std::string short_name(const Cage& cage, Index loop) {
+  Index part = 0;
+  while (part + 1 < cage.part_count() && loops_of_part(cage, part + 1).first <= loop) ++part;
+  const Index hole = loop - loops_of_part(cage, part).first;
+  return (hole > 0 ? "hole " + std::to_string(hole) : "") + (hole > 0 && part > 0 ? " of " : "") +
+         (part > 0 ? "part " + std::to_string(part + 1) : "");
+}
+
+/// "the rest cage", "hole 2 of the rest cage", "hole 1 of part 3 of the rest cage".
+std::string loop_name(const Cage& cage, Index loop) {
+  const std::string name = short_name(cage, loop);
+  return name + (name.empty() ? "" : " of ") + "the rest cage";
 }
 
 std::optional<Error> size_fault(const Cage& cage) {
   const Loops loops = cage.loops();
   for (Index l = 0; l < loops.count(); ++l)
     if (loops.length(l) < 3)
-      return Error(ErrorKind::bad_input, loop_name(l) + " has " + std::to_string(loops.length(l)) +
-                                             " segments; " + (l == 0 ? "a cage" : "a hole") +
-                                             " needs at least three");
+      return Error(ErrorKind::bad_input,
+                   loop_name(cage, l) + " has " + std::to_string(loops.length(l)) + " segments; " +
+                       (cage.is_hole(l) ? "a hole" : "a cage") + " needs at least three");
   return {};
 }
 
-std::optional<Error> crossing_fault(const FlatCage& flat) {
+std::optional<Error> crossing_fault(const Cage& cage, const FlatCage& flat) {
   const auto crossing = self_crossing(flat);
   if (!crossing) return {};
   const Loops loops = PolygonView(flat).loops();
   const Index first = loops.loop_of(crossing->first), second = loops.loop_of(crossing->second);
+  const std::string outer = cage.parts.empty() ? "outer loop" : "first outline";
   const std::string what =
-      first == second ? loop_name(first) + " crosses itself"
-      : first == 0 ? "hole " + std::to_string(second) + " crosses the outer loop of the rest cage"
-                   : "holes " + std::to_string(first) + " and " + std::to_string(second) +
-                         " of the rest cage cross";
+      first == second ? loop_name(cage, first) + " crosses itself"
+      : first == 0    ? short_name(cage, second) + " crosses the " + outer + " of the rest cage"
+      : cage.parts.empty() ? "holes " + std::to_string(first) + " and " + std::to_string(second) +
+                                 " of the rest cage cross"
+                           : short_name(cage, first) + " and " + short_name(cage, second) +
+                                 " of the rest cage cross";
   return Error(ErrorKind::bad_input,
                what + ": segments " + std::to_string(flat.locations[crossing->first].segment + 1) +
                    " and " + std::to_string(flat.locations[crossing->second].segment + 1) +
@@ -414,28 +485,43 @@ std::optional<Error> crossing_fault(const FlatCage& flat) {
                crossing->point);
 }
 
-/// Rejects loops without area, and holes that are not inside the outer loop or are inside each
-/// other. The loops do not cross, so one point of each hole decides.
-std::optional<Error> nesting_fault(const FlatCage& flat) {
+/// Rejects loops without area, holes outside the outline of their part or inside other holes, and
+/// parts inside other parts. The loops do not cross, so one point of each loop decides.
+std::optional<Error> nesting_fault(const Cage& cage, const FlatCage& flat) {
   const PolygonView polygon = flat;
   const double size = box_of(flat).diagonal();
   for (Index l = 0; l < polygon.loops().count(); ++l) {
     const Complex start = polygon.loop(l)[0];
     if (!(std::abs(signed_area(polygon.loop(l))) > 1e-14 * size * size))
       return Error(ErrorKind::bad_input,
-                   loop_name(l) + " has no area; move its points off a common line", start);
-    if (l > 0 && winding_number(polygon.loop(0), start) == 0)
-      return Error(ErrorKind::bad_input,
-                   "hole " + std::to_string(l) + " lies outside the rest cage, at " +
-                       point_text(start) + "; move it inside or delete it",
-                   start);
-    for (Index other = 1; other < polygon.loops().count(); ++other)
-      if (l > 0 && other != l && winding_number(polygon.loop(other), start) != 0)
-        return Error(ErrorKind::bad_input,
-                     "hole " + std::to_string(l) + " lies inside hole " + std::to_string(other) +
-                         ", at " + point_text(start) + "; delete one of them",
-                     start);
+                   loop_name(cage, l) + " has no area; move its points off a common line", start);
   }
+  for (Index part = 0; part < cage.part_count(); ++part) {
+    const auto [first, end] = loops_of_part(cage, part);
+    for (Index l = first + 1; l < end; ++l) {
+      const Complex start = polygon.loop(l)[0];
+      if (winding_number(polygon.loop(first), start) == 0)
+        return Error(ErrorKind::bad_input,
+                     short_name(cage, l) + " lies outside " + loop_name(cage, first) + ", at " +
+                         point_text(start) + "; move it inside or delete it",
+                     start);
+      for (Index other = first + 1; other < end; ++other)
+        if (other != l && winding_number(polygon.loop(other), start) != 0)
+          return Error(ErrorKind::bad_input,
+                       short_name(cage, l) + " lies inside " + short_name(cage, other) + ", at " +
+                           point_text(start) + "; delete one of them",
+                       start);
+    }
+  }
+  if (cage.parts.empty()) return {};
+  const std::vector<int> around = nesting_of(polygon);
+  for (Index l = 0; l < polygon.loops().count(); ++l)
+    if ((around[static_cast<size_t>(l)] % 2 == 1) != cage.is_hole(l))
+      return Error(ErrorKind::bad_input,
+                   loop_name(cage, l) + " lies inside another part, at " +
+                       point_text(polygon.loop(l)[0]) +
+                       "; parts must be apart, or in each other's holes",
+                   polygon.loop(l)[0]);
   return {};
 }
 
@@ -449,9 +535,9 @@ std::optional<Error> rest_fault(const Cage& cage) {
     if (auto fault = speed_fault(cage, i)) return fault;
   if (auto fault = tip_fault(cage)) return fault;
   const FlatCage flat = flattened(cage);
-  if (auto fault = crossing_fault(flat)) return fault;
+  if (auto fault = crossing_fault(cage, flat)) return fault;
   if (auto fault = gap_fault(flat)) return fault;
-  return nesting_fault(flat);
+  return nesting_fault(cage, flat);
 }
 
 void check_rest_cage(const Cage& cage) {

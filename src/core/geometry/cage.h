@@ -1,5 +1,5 @@
-// The cage: closed loops of Bezier segments, each with its own degree. The first loop is the outer
-// boundary of a domain, and the others are its holes.
+// The cage: closed loops of Bezier segments, each with its own degree. The first loop is the
+// outline of a domain. Others are its holes, or the outlines of further parts with their holes.
 //
 // A polygon can be a cage whose segments all have degree 1.
 #pragma once
@@ -16,13 +16,19 @@ namespace holomorph {
 /// which the next segment of its loop stores as its first. The number of points that a segment
 /// stores is therefore its degree. Value type.
 struct Cage {
-  std::vector<Points> segments;   ///< of the outer loop, and then of the holes
-  std::vector<Index> holes = {};  ///< the first segment of each hole
+  std::vector<Points> segments;    ///< of an outline, and then of its holes, for each part
+  std::vector<Index> starts = {};  ///< the first segment of each loop after the first one
+  std::vector<Index> parts = {};   ///< those of `starts` that begin the outline of a further part
 
   bool operator==(const Cage&) const = default;
 
   Index size() const { return static_cast<Index>(segments.size()); }
-  Loops loops() const { return {size(), holes}; }
+  Loops loops() const { return {size(), starts}; }
+  bool has_holes() const { return starts.size() > parts.size(); }
+  Index part_count() const { return static_cast<Index>(parts.size()) + 1; }
+  bool is_hole(Index loop) const {
+    return loop > 0 && !std::ranges::binary_search(parts, loops().first(loop));
+  }
   /// The next and the previous segment in the same loop. Also the next and previous vertex.
   Index next(Index segment) const { return loops().next(segment); }
   Index before(Index segment) const { return loops().before(segment); }
@@ -85,6 +91,18 @@ struct FlatCage : Polygon {
 };
 FlatCage flattened(const Cage& cage);
 
+/// Finds the parts of a cage that contain points.
+class PartFinder {
+ public:
+  explicit PartFinder(const Cage& cage);
+  /// The part that contains z, or the nearest one. Cost: linear; constant if there is one part.
+  Index at(Complex z) const;
+  const FlatCage& outline(Index part) const { return outlines_[static_cast<size_t>(part)]; }
+
+ private:
+  std::vector<FlatCage> outlines_;
+};
+
 /// The point on the cage nearest to z. `flat` is the flattened cage. Costs as much as
 /// nearest_on_polygon.
 BoundaryPoint nearest_on(const Cage& cage, const FlatCage& flat, Complex z);
@@ -117,10 +135,21 @@ double joint_parameter(const Cage& cage, Index vertex);
 /// vertex's loop must have more than three segments.
 void erase_vertex(Cage& cage, Index vertex, double joint, Refit refit = Refit::curve);
 
-/// Adds a hole with these segments after the other holes.
-void add_hole(Cage& cage, const std::vector<Points>& segments);
+/// Adds a hole of a part with these segments after its other holes.
+void add_hole(Cage& cage, const std::vector<Points>& segments, Index part = 0);
 /// Removes loop `loop` >= 1, which is a hole.
 void erase_hole(Cage& cage, Index loop);
+/// Adds the outline and the holes of a cage with one part as a further part.
+void add_part(Cage& cage, const Cage& part);
+/// Removes one of several parts with its holes.
+void erase_part(Cage& cage, Index part);
+/// The loops of a part, from `first` to before `end`.
+struct LoopRange {
+  Index first, end;
+};
+LoopRange loops_of_part(const Cage& cage, Index part);
+/// A part as a cage of its own.
+Cage part_of(const Cage& cage, Index part);
 /// One loop as a cage of its own.
 Cage loop_of(const Cage& cage, Index loop);
 
@@ -135,7 +164,8 @@ bool is_straight(const Cage& cage, Index segment);
 /// finite coordinates and a nonzero area. It must not have a segment of zero length, a cusp, a
 /// needle below 1e-7 radians or a self-intersection. Needles are refused because the points that a
 /// mesher inserts on their sides are rounded, which makes the sides cross. Holes must lie inside
-/// the outer loop and outside each other, without touching anything. The message names the
+/// the outline of their part and outside each other, parts outside each other or in holes, and no
+/// two loops may touch. The message names the
 /// segments, and the error's `where` is the position. Needles, intersections and areas are tested
 /// on the `flattened` cage. Cost for ordinary loops: O(n log n) in the number of flattened points.
 void check_rest_cage(const Cage& cage);

@@ -4,11 +4,11 @@
 
 namespace holomorph {
 
-Orientation::Orientation(const Cage& rest) : starts_(rest.holes), size_(rest.size()) {
+Orientation::Orientation(const Cage& rest) : starts_(rest.starts), size_(rest.size()) {
   const Polygon outline = outline_of(rest);
   const PolygonView view = outline;
   for (Index l = 0; l < view.loops().count(); ++l)
-    if ((signed_area(view.loop(l)) < 0) == (l == 0)) backward_.push_back(l);
+    if ((signed_area(view.loop(l)) > 0) == rest.is_hole(l)) backward_.push_back(l);
 }
 
 Cage Orientation::turned(const Cage& cage) const {

@@ -16,9 +16,11 @@ double signed_area(PolygonView polygon) {
 }
 
 double area_of(PolygonView polygon) {
+  const std::vector<int> around = nesting_of(polygon);
   double area = 0;
   for (Index l = 0; l < polygon.loops().count(); ++l)
-    area += (l == 0 ? 1 : -1) * std::abs(signed_area(polygon.loop(l)));
+    area +=
+        (around[static_cast<size_t>(l)] % 2 == 0 ? 1 : -1) * std::abs(signed_area(polygon.loop(l)));
   return area;
 }
 
@@ -81,10 +83,21 @@ int winding_number(PolygonView polygon, Complex z) {
   return winding;
 }
 
+std::vector<int> nesting_of(PolygonView polygon) {
+  const Index count = polygon.loops().count();
+  std::vector<int> around(static_cast<size_t>(count), 0);
+  for (Index l = 0; count > 1 && l < count; ++l)
+    for (Index other = 0; other < count; ++other)
+      around[static_cast<size_t>(l)] +=
+          other != l && winding_number(polygon.loop(other), polygon.loop(l)[0]) != 0;
+  return around;
+}
+
 bool encloses(PolygonView polygon, Complex z) {
+  int around = 0;
   for (Index l = 0; l < polygon.loops().count(); ++l)
-    if ((winding_number(polygon.loop(l), z) != 0) != (l == 0)) return false;
-  return true;
+    around += winding_number(polygon.loop(l), z) != 0;
+  return around % 2 == 1;
 }
 
 NearestPoint nearest_on_segment(Complex a, Complex b, Complex z) {
@@ -141,7 +154,7 @@ std::optional<Crossing> self_crossing(PolygonView polygon) {
   return {};
 }
 
-double turning_number(PolygonView polygon) {
+double turning_number(PolygonView polygon, Index parts) {
   double total = 0.0;
   const Loops loops = polygon.loops();
   for (Index l = 0; l < loops.count(); ++l) {
@@ -154,7 +167,8 @@ double turning_number(PolygonView polygon) {
       total += std::atan2(cross(a, b), dot(a, b));
     }
   }
-  return total / (2 * kPi) + static_cast<double>(loops.count() - 1);
+  const Index holes = loops.count() - parts;
+  return total / (2 * kPi) + static_cast<double>(holes - (parts - 1));
 }
 
 }  // namespace holomorph

@@ -1,4 +1,4 @@
-// Polygons, which may have holes.
+// Polygons, which may have holes and several parts.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,11 @@
 
 namespace holomorph {
 
-/// Closed polylines in a single list: the outer loop, and then the holes. Value type.
+/// Closed polylines in a single list, of which none cross: an outline, and then its holes, for each
+/// part. Inside is what an odd number of them goes around. Value type.
 struct Polygon {
   Points points;
-  std::vector<Index> holes = {};  ///< the position of each hole's first point
+  std::vector<Index> starts = {};  ///< of the loops after the first one
 
   Points::const_iterator begin() const { return points.begin(); }
   Points::const_iterator end() const { return points.end(); }
@@ -22,14 +23,14 @@ class PolygonView {
  public:
   PolygonView(const Points& points) : points_(points) {}
   PolygonView(std::span<const Complex> points) : points_(points) {}
-  PolygonView(std::span<const Complex> points, std::span<const Index> holes)
-      : points_(points), holes_(holes) {}
-  PolygonView(const Polygon& polygon) : points_(polygon.points), holes_(polygon.holes) {}
+  PolygonView(std::span<const Complex> points, std::span<const Index> starts)
+      : points_(points), starts_(starts) {}
+  PolygonView(const Polygon& polygon) : points_(polygon.points), starts_(polygon.starts) {}
 
   std::span<const Complex> points() const { return points_; }
   Index size() const { return static_cast<Index>(points_.size()); }
   Complex operator[](Index i) const { return points_[static_cast<size_t>(i)]; }
-  Loops loops() const { return {size(), holes_}; }
+  Loops loops() const { return {size(), starts_}; }
   /// One loop alone.
   std::span<const Complex> loop(Index i) const {
     const Loops all = loops();
@@ -46,13 +47,15 @@ class PolygonView {
 
  private:
   std::span<const Complex> points_;
-  std::span<const Index> holes_;
+  std::span<const Index> starts_;
 };
 
 /// The sum of the signed areas of all loops. The area of a loop is positive if it is
 /// counter-clockwise.
 double signed_area(PolygonView polygon);
-/// The area inside the outer loop and outside the holes, whatever their orientations.
+/// The number of other loops that go around each loop: even for outlines, odd for holes.
+std::vector<int> nesting_of(PolygonView polygon);
+/// The area inside, whatever the orientations of the loops.
 double area_of(PolygonView polygon);
 
 /// The length of all loops.
@@ -64,7 +67,7 @@ bool is_left_of(Complex a, Complex b, Complex z);
 /// The sum of the winding numbers of all loops around z. Points on the boundary may count as inside
 /// or outside.
 int winding_number(PolygonView polygon, Complex z);
-/// Whether z is inside the outer loop and outside all holes, whatever their orientations.
+/// Whether z is inside, whatever the orientations of the loops.
 bool encloses(PolygonView polygon, Complex z);
 
 /// The nearest point on a polyline: the edge from vertex `edge` to the next vertex, the parameter
@@ -88,8 +91,9 @@ struct Crossing {
 /// if they overlap. Method: a sweep over boxes sorted by x. Cost: O(n log n) for ordinary outlines.
 std::optional<Crossing> self_crossing(PolygonView polygon);
 
-/// The sum of all exterior angles over 2 pi, plus 1 for each hole. It is 1 for a polygon that does
-/// not cross itself and has its inside on the left. Edges of zero length are skipped.
-double turning_number(PolygonView polygon);
+/// The sum of all exterior angles over 2 pi, plus 1 for each hole and minus 1 for each of the
+/// `parts` after the first. It is 1 for a polygon that does not cross itself and has its inside on
+/// the left. Edges of zero length are skipped.
+double turning_number(PolygonView polygon, Index parts = 1);
 
 }  // namespace holomorph

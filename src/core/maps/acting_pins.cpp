@@ -5,6 +5,18 @@
 
 namespace holomorph {
 
+namespace {
+
+/// Whether a point outside the cage has the outline of a part around it.
+bool is_in_hole(const Cage& cage, Complex z) {
+  for (Index part = 0; part < cage.part_count(); ++part)
+    if (winding_number(outline_of(loop_of(cage, loops_of_part(cage, part).first)).points, z) != 0)
+      return true;
+  return false;
+}
+
+}  // namespace
+
 UsablePins usable_pins(const Rest& rest) {
   constexpr double kSpread = 1e-9;  // pins closer together than this, in units of L, count as one
   const double least = kSpread * perimeter(outline_of(rest.cage)) / (2 * kPi);
@@ -16,8 +28,7 @@ UsablePins usable_pins(const Rest& rest) {
       list += (list.empty() ? "" : ", ") + std::to_string(i + 1);
     };
     if (!is_finite(z) || !contains(rest.cage, z)) {
-      const bool in_hole = is_finite(z) && !rest.cage.holes.empty() &&
-                           winding_number(outline_of(loop_of(rest.cage, 0)).points, z) != 0;
+      const bool in_hole = is_finite(z) && rest.cage.has_holes() && is_in_hole(rest.cage, z);
       name(in_hole ? in_holes : outside);
       continue;
     }

@@ -28,7 +28,7 @@ ContinuedMap::ContinuedMap(std::shared_ptr<const Mesh> mesh, VectorXc f, const P
 }
 
 ContinuedMap::Foot ContinuedMap::foot_of(Complex z) const {
-  const NearestPoint nearest = nearest_on_polygon({boundary_, mesh_->holes}, z);
+  const NearestPoint nearest = nearest_on_polygon({boundary_, mesh_->starts}, z);
   const auto from = static_cast<size_t>(nearest.edge),
              to = static_cast<size_t>(mesh_->boundary_loops().next(nearest.edge));
   const Complex along = boundary_[to] - boundary_[from];

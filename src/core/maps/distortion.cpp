@@ -52,9 +52,9 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map) {
       report.zeros.push_back((mesh.vertices[i] + mesh.vertices[j] + mesh.vertices[k]) / 3.0);
   }
   report.flipped_triangles = flipped_triangles(mesh, map.f);
-  Polygon image{{}, mesh.holes};
+  Polygon image{{}, mesh.starts};
   for (const int v : mesh.boundary) image.points.push_back(map.f[v]);
-  report.turning_number = turning_number(image);
+  report.turning_number = turning_number(image, part_count(mesh));
   report.simple_boundary = !self_crossing(image).has_value();
   return report;
 }

@@ -373,8 +373,8 @@ class Cubics {
     const Loops loops = mesh_.boundary_loops();
     for (size_t i = 0; i < mesh_.boundary.size(); ++i) {
       const Index at = static_cast<Index>(i);
-      if (std::ranges::binary_search(mesh_.holes, at))
-        mesh.holes.push_back(static_cast<Index>(mesh.boundary.size()));
+      if (std::ranges::binary_search(mesh_.starts, at))
+        mesh.starts.push_back(static_cast<Index>(mesh.boundary.size()));
       add_boundary(mesh_.boundary[i], mesh_.boundary[static_cast<size_t>(loops.next(at))], mesh);
     }
     mesh.cage_vertices = mesh_.cage_vertices;

@@ -150,19 +150,19 @@ bool is_immersion(const Mesh& mesh, const VectorXc& f) {
 Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   Injectivity found;
   found.folds_at = visible_folds(mesh, f);
-  Polygon image{{}, mesh.holes};
+  Polygon image{{}, mesh.starts};
   for (const int v : mesh.boundary) image.points.push_back(f[v]);
   if (image.points.empty()) return found;
   constexpr double kVisible = 3e-4;
   const PolygonView loops = image;
   Polygon simplified;
   for (Index l = 0; l < loops.loops().count(); ++l) {
-    if (l > 0) simplified.holes.push_back(static_cast<Index>(simplified.points.size()));
+    if (l > 0) simplified.starts.push_back(static_cast<Index>(simplified.points.size()));
     const Points loop =
         SimplifiedPolygon(loops.loop(l), kVisible * box_of(image).diagonal()).points();
     simplified.points.insert(simplified.points.end(), loop.begin(), loop.end());
   }
-  found.turning_number = turning_number(simplified);
+  found.turning_number = turning_number(simplified, part_count(mesh));
   // In a part that is wound up thinly, the simplified boundary may turn more often. Only then are
   // the angles needed, which take long.
   if (std::round(found.turning_number) == 1 || is_immersion(mesh, f)) found.turning_number = 1;

@@ -98,7 +98,7 @@ void InverseMap::set_up_boundary() {
 
 std::optional<int> InverseMap::winding(Complex w) const {
   if (grid_.box.contains(w) && !cells_[grid_.cell_of(w)].on_boundary)
-    return winding_number({boundary_, mesh_.holes}, w);
+    return winding_number({boundary_, mesh_.starts}, w);
   return winding_.turns(pieces_, w);
 }
 

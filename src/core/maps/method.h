@@ -33,6 +33,7 @@ struct ParameterSpec {
   };
   /// The parameter takes effect only while another parameter has this value.
   std::optional<Condition> used_when = {};
+  bool needs_parts = false;          ///< it takes effect only if the cage has several parts
   std::vector<Option> options = {};  ///< for Type::choice
 };
 
@@ -63,7 +64,8 @@ struct Method {
   /// The map is smooth between the vertices of Rest::mesh, which should have edges about a fifth as
   /// long as the picture is wide there (HalfWidth). Other methods use finer meshes.
   bool smooths_mesh = false;
-  bool allows_holes = true;  ///< the cage may have holes
+  bool allows_holes = true;   ///< the cage may have holes
+  bool allows_parts = false;  ///< the cage may have several parts
   bool follows_others =
       false;  ///< approximates the map of another method, which has its own parameters
   /// Called by `prepare` with a checked rest.

@@ -122,7 +122,7 @@ class Collapse {
     }
     const Loops loops = mesh_.boundary_loops();
     for (Index loop = 0; loop < loops.count(); ++loop) {
-      if (loop > 0) mesh.holes.push_back(static_cast<Index>(mesh.boundary.size()));
+      if (loop > 0) mesh.starts.push_back(static_cast<Index>(mesh.boundary.size()));
       for (Index i = loops.first(loop); i < loops.end(loop); ++i)
         if (const int v = number[static_cast<size_t>(mesh_.boundary[static_cast<size_t>(i)])];
             v >= 0)

@@ -2,7 +2,10 @@
 // cotangent Laplacian.
 #include "core/mesh/inbetween.h"
 
+#include <algorithm>
 #include <map>
+#include <ranges>
+#include <utility>
 
 #include "core/arithmetic.h"
 #include "core/error.h"
@@ -26,28 +29,60 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
              dot(opposite_side(*mesh_, t, a), opposite_side(*mesh_, t, b)) / (8 * areas_[i])});
     }
   }
-  entries.push_back({0, 0, entries.front().value()});  // the first vertex stays at 0
+  std::vector<char> seen(static_cast<size_t>(count), 0);
+  for (int first = 0; first < static_cast<int>(count); ++first) {
+    if (seen[static_cast<size_t>(first)]) continue;
+    seen[static_cast<size_t>(first)] = 1;
+    const int still = std::ranges::min(mesh_->triangles[static_cast<size_t>(first)]);
+    entries.push_back({still, still, entries[static_cast<size_t>(9 * first)].value()});
+    part_starts_.push_back(order_.size());
+    order_.push_back({first, -1});
+    for (size_t at = part_starts_.back(); at < order_.size(); ++at) {
+      const Triangle& t = mesh_->triangles[static_cast<size_t>(order_[at].triangle)];
+      for (int a = 0; a < 3; ++a) {
+        const auto neighbor = triangle_left_of.find({t[(a + 1) % 3], t[a]});
+        if (neighbor == triangle_left_of.end() || seen[static_cast<size_t>(neighbor->second)])
+          continue;
+        seen[static_cast<size_t>(neighbor->second)] = 1;
+        order_.push_back({neighbor->second, order_[at].triangle});
+      }
+    }
+  }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   laplacian_ = std::make_shared<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(matrix);
   check(laplacian_->info() == Eigen::Success, "inbetween: the Laplacian is definite");
-
-  std::vector<char> seen(static_cast<size_t>(count), 0);
-  order_.push_back({0, -1});
-  seen[0] = 1;
-  for (size_t at = 0; at < order_.size(); ++at) {
-    const Triangle& t = mesh_->triangles[static_cast<size_t>(order_[at].triangle)];
-    for (int a = 0; a < 3; ++a) {
-      const auto neighbor = triangle_left_of.find({t[(a + 1) % 3], t[a]});
-      if (neighbor == triangle_left_of.end() || seen[static_cast<size_t>(neighbor->second)])
-        continue;
-      seen[static_cast<size_t>(neighbor->second)] = 1;
-      order_.push_back({neighbor->second, order_[at].triangle});
-    }
-  }
 }
 
 namespace {
+
+/// A point of these triangles at which two maps agree. If there is none, the vertex whose two
+/// images are closest to each other.
+template <class Triangles>
+Location least_moving_among(const Triangles& triangles, const Mesh& mesh, const VectorXc& a,
+                            const VectorXc& b) {
+  Location best;
+  double least = INFINITY;
+  for (const int i : triangles) {
+    const Triangle& t = mesh.triangles[static_cast<size_t>(i)];
+    const std::array<Complex, 3> displacement{b[t[0]] - a[t[0]], b[t[1]] - a[t[1]],
+                                              b[t[2]] - a[t[2]]};
+    const Complex u = displacement[1] - displacement[0], v = displacement[2] - displacement[0];
+    if (const double area = cross(u, v); area != 0) {
+      const double second = cross(-displacement[0], v) / area,
+                   third = cross(u, -displacement[0]) / area;
+      if (second >= 0 && third >= 0 && second + third <= 1)
+        return {i, {1 - second - third, second, third}};
+    }
+    for (size_t k = 0; k < 3; ++k)
+      if (std::norm(displacement[k]) < least) {
+        least = std::norm(displacement[k]);
+        best = {i, {}};
+        best.weights[k] = 1;
+      }
+  }
+  return best;
+}
 
 Inbetween::Shape turned(Inbetween::Shape shape, int turns) {
   shape.logarithm.array() += Complex(0, 2 * kPi * turns);
@@ -137,33 +172,30 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
     }
   }
   f = laplacian_->solve(right);  // one pass over the factor for both parts
-  const Location place = still ? *still : least_moving_point(*mesh_, a.f, b.f);
-  const auto at = [&](const VectorXc& map) { return place.in(*mesh_, as_span(map)); };
-  f.array() += (1 - weight) * at(a.f) + weight * at(b.f) - at(f);
+  const auto shift_at = [&](const Location& place) {
+    const auto at = [&](const VectorXc& map) { return place.in(*mesh_, as_span(map)); };
+    return (1 - weight) * at(a.f) + weight * at(b.f) - at(f);
+  };
+  if (part_starts_.size() == 1) {
+    f.array() += shift_at(still ? *still : least_moving_point(*mesh_, a.f, b.f));
+    return;
+  }
+  for (size_t p = 0; p < part_starts_.size(); ++p) {
+    const size_t first = part_starts_[p],
+                 end = p + 1 < part_starts_.size() ? part_starts_[p + 1] : order_.size();
+    std::vector<int> triangles;
+    for (size_t i = first; i < end; ++i) triangles.push_back(order_[i].triangle);
+    const Complex shift = shift_at(least_moving_among(triangles, *mesh_, a.f, b.f));
+    std::vector<char> moved(mesh_->vertices.size(), 0);
+    for (const int triangle : triangles)
+      for (const int v : mesh_->triangles[static_cast<size_t>(triangle)])
+        if (!std::exchange(moved[static_cast<size_t>(v)], 1)) f[v] += shift;
+  }
 }
 
 Location least_moving_point(const Mesh& mesh, const VectorXc& a, const VectorXc& b) {
-  Location best;
-  double least = INFINITY;
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle& t = mesh.triangles[i];
-    const std::array<Complex, 3> displacement{b[t[0]] - a[t[0]], b[t[1]] - a[t[1]],
-                                              b[t[2]] - a[t[2]]};
-    const Complex u = displacement[1] - displacement[0], v = displacement[2] - displacement[0];
-    if (const double area = cross(u, v); area != 0) {
-      const double second = cross(-displacement[0], v) / area,
-                   third = cross(u, -displacement[0]) / area;
-      if (second >= 0 && third >= 0 && second + third <= 1)
-        return {static_cast<int>(i), {1 - second - third, second, third}};
-    }
-    for (size_t k = 0; k < 3; ++k)
-      if (std::norm(displacement[k]) < least) {
-        least = std::norm(displacement[k]);
-        best = {static_cast<int>(i), {}};
-        best.weights[k] = 1;
-      }
-  }
-  return best;
+  return least_moving_among(std::views::iota(0, static_cast<int>(mesh.triangles.size())), mesh, a,
+                            b);
 }
 
 }  // namespace holomorph

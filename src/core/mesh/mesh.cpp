@@ -30,22 +30,27 @@ int vertex_at(Complex corner, double tolerance, Mesh& mesh) {
   return nearest;
 }
 
-/// Sets the loops of the boundary, the outer one first.
+/// Sets the loops of the boundary. Each one belongs to the cage's loop whose first vertex it is
+/// nearest to.
 void set_boundary(const Cage& cage, Mesh& mesh) {
   std::vector<std::vector<int>> loops =
-      boundary_loops(static_cast<int>(mesh.vertices.size()), mesh.triangles, "the mesh");
+      boundary_loops(static_cast<int>(mesh.vertices.size()), mesh.triangles, "the mesh",
+                     static_cast<int>(cage.part_count()));
   if (loops.size() != static_cast<size_t>(cage.loops().count()))
-    refuse("they have " + std::to_string(loops.size() - 1) + " holes, but the cage has " +
-           std::to_string(cage.holes.size()));
-  const auto area = [&mesh](const std::vector<int>& loop) {
-    Points points;
-    for (const int v : loop) points.push_back(mesh.vertices[v]);
-    return signed_area(points);
-  };
-  std::ranges::sort(loops, std::greater(), area);
-  for (const std::vector<int>& loop : loops) {
-    if (!mesh.boundary.empty()) mesh.holes.push_back(static_cast<Index>(mesh.boundary.size()));
-    mesh.boundary.insert(mesh.boundary.end(), loop.begin(), loop.end());
+    refuse("their boundary has " + std::to_string(loops.size()) +
+           " loops, but with its holes and parts, the cage has " +
+           std::to_string(cage.loops().count()));
+  for (Index l = 0; l < cage.loops().count(); ++l) {
+    const Complex corner = cage.vertex(cage.loops().first(l));
+    const auto away = [&](const std::vector<int>& loop) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const int v : loop) nearest = std::min(nearest, std::abs(mesh.vertices[v] - corner));
+      return nearest;
+    };
+    const auto own = std::ranges::min_element(loops, {}, away);
+    if (!mesh.boundary.empty()) mesh.starts.push_back(static_cast<Index>(mesh.boundary.size()));
+    mesh.boundary.insert(mesh.boundary.end(), own->begin(), own->end());
+    loops.erase(own);
   }
 }
 
@@ -81,6 +86,86 @@ Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles)
       refuse("the boundary vertex " + point_text(mesh.vertices[v]) + " is not on the cage");
   if (std::abs(area - area_of(outline)) > kArea * size * size) refuse("they do not fill the cage");
   return mesh;
+}
+
+Mesh joined(std::span<const Mesh> parts) {
+  Mesh all;
+  for (const Mesh& part : parts) {
+    const int first = static_cast<int>(all.vertices.size());
+    const auto moved = [first](int v) { return v + first; };
+    if (!all.boundary.empty()) all.starts.push_back(static_cast<Index>(all.boundary.size()));
+    for (const Index start : part.starts)
+      all.starts.push_back(static_cast<Index>(all.boundary.size()) + start);
+    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const Triangle& t : part.triangles)
+      all.triangles.push_back({moved(t[0]), moved(t[1]), moved(t[2])});
+    std::ranges::transform(part.boundary, std::back_inserter(all.boundary), moved);
+    std::ranges::transform(part.cage_vertices, std::back_inserter(all.cage_vertices), moved);
+  }
+  return all;
+}
+
+std::vector<PartMesh> parts_of(const Mesh& mesh, const Cage& cage) {
+  const size_t count = static_cast<size_t>(cage.part_count());
+  std::vector<PartMesh> parts(count);
+  const Loops loops = mesh.boundary_loops();
+  // The part of each vertex: those of the boundary are known, and triangles connect the others.
+  std::vector<int> part_of_vertex(mesh.vertices.size(), -1);
+  for (Index p = 0; p < cage.part_count(); ++p) {
+    const auto [first, end] = loops_of_part(cage, p);
+    for (Index i = loops.first(first); i < loops.end(end - 1); ++i)
+      part_of_vertex[static_cast<size_t>(mesh.boundary[static_cast<size_t>(i)])] =
+          static_cast<int>(p);
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Triangle& t : mesh.triangles) {
+      int part = -1;
+      for (const int v : t) part = std::max(part, part_of_vertex[static_cast<size_t>(v)]);
+      for (const int v : t)
+        if (int& own = part_of_vertex[static_cast<size_t>(v)]; part >= 0 && own != part) {
+          if (own >= 0) refuse("a triangle connects two parts");
+          own = part;
+          changed = true;
+        }
+    }
+  }
+  std::vector<int> index(mesh.vertices.size(), -1);
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (part_of_vertex[v] < 0) refuse("some of them are connected to no part");
+    PartMesh& part = parts[static_cast<size_t>(part_of_vertex[v])];
+    index[v] = static_cast<int>(part.numbers.size());
+    part.numbers.push_back(static_cast<int>(v));
+    part.mesh.vertices.push_back(mesh.vertices[v]);
+  }
+  const auto at = [&index](int v) { return index[static_cast<size_t>(v)]; };
+  for (const Triangle& t : mesh.triangles)
+    parts[static_cast<size_t>(part_of_vertex[static_cast<size_t>(t[0])])].mesh.triangles.push_back(
+        {at(t[0]), at(t[1]), at(t[2])});
+  for (size_t p = 0; p < count; ++p) {
+    Mesh& part = parts[p].mesh;
+    const auto [first, end] = loops_of_part(cage, static_cast<Index>(p));
+    for (Index l = first; l < end; ++l) {
+      if (l > first) part.starts.push_back(static_cast<Index>(part.boundary.size()));
+      for (Index i = loops.first(l); i < loops.end(l); ++i)
+        part.boundary.push_back(at(mesh.boundary[static_cast<size_t>(i)]));
+      for (Index i = cage.loops().first(l); i < cage.loops().end(l); ++i)
+        part.cage_vertices.push_back(at(mesh.cage_vertices[static_cast<size_t>(i)]));
+    }
+  }
+  return parts;
+}
+
+Index part_count(const Mesh& mesh) {
+  const Loops loops = mesh.boundary_loops();
+  Index count = 0;
+  for (Index l = 0; l < loops.count(); ++l) {
+    Points loop;
+    for (Index i = loops.first(l); i < loops.end(l); ++i)
+      loop.push_back(mesh.vertices[mesh.boundary[i]]);
+    count += signed_area(loop) > 0;
+  }
+  return count;
 }
 
 std::vector<char> boundary_marks(const Mesh& mesh) {

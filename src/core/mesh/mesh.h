@@ -15,14 +15,14 @@ using Triangle = std::array<int, 3>;
 struct Mesh {
   Points vertices;
   std::vector<Triangle> triangles;
-  /// The boundary as closed loops of vertex indices, with the inside on their left: the outer loop,
-  /// and then a loop around each hole.
+  /// The boundary as closed loops of vertex indices, with the inside on their left, in the order of
+  /// the cage's loops.
   std::vector<int> boundary;
   /// For each cage vertex, the mesh vertex at exactly the same position.
   std::vector<int> cage_vertices;
-  std::vector<Index> holes = {};  ///< where each hole starts in `boundary`
+  std::vector<Index> starts = {};  ///< of the loops of `boundary` after the first one
 
-  Loops boundary_loops() const { return {static_cast<Index>(boundary.size()), holes}; }
+  Loops boundary_loops() const { return {static_cast<Index>(boundary.size()), starts}; }
 };
 
 /// The side of a triangle opposite a corner (0, 1 or 2), counter-clockwise. Cost: constant.
@@ -44,6 +44,20 @@ inline double area_of(const Mesh& mesh, const Triangle& t) {
 /// within 1e-3 of the size squared. Throws an Error that names the failed condition. Cost: O(n log
 /// n) in the number of triangles, plus boundary vertices times cage vertices.
 Mesh mesh_of(const Cage& cage, Points vertices, std::vector<Triangle> triangles);
+
+/// Meshes of the parts of a cage, in order, as one mesh of the cage.
+Mesh joined(std::span<const Mesh> parts);
+
+/// The meshes of the parts of a cage, taken from a mesh of the cage. The numbers are those that the
+/// vertices have there.
+struct PartMesh {
+  Mesh mesh;
+  std::vector<int> numbers;
+};
+std::vector<PartMesh> parts_of(const Mesh& mesh, const Cage& cage);
+
+/// The number of outlines in the boundary.
+Index part_count(const Mesh& mesh);
 
 /// For each vertex, 1 if it is on the boundary, else 0. Cost: linear.
 std::vector<char> boundary_marks(const Mesh& mesh);

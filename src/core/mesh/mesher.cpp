@@ -295,7 +295,7 @@ Mesh extract(Triangulation& cdt, const std::vector<Triangulation::Vertex_handle>
   });
   for (const auto& corner : corners) mesh.cage_vertices.push_back(corner->info());
   for (Index l = 0; l < loops.count(); ++l) {
-    if (l > 0) mesh.holes.push_back(static_cast<Index>(mesh.boundary.size()));
+    if (l > 0) mesh.starts.push_back(static_cast<Index>(mesh.boundary.size()));
     const int first = mesh.cage_vertices[static_cast<size_t>(loops.first(l))];
     int v = first;
     do {
@@ -445,12 +445,24 @@ Mesh settled(const Cage& cage, const FlatCage& flat, Mesh mesh) {
 
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options) {
   check_rest_cage(cage);  // its messages name the cage's own segments
+  if (!cage.parts.empty()) {
+    constexpr double kLeast = 0.01;  // of all vertices
+    const double area = area_of(flattened(cage));
+    std::vector<Mesh> meshes;
+    for (Index p = 0; p < cage.part_count(); ++p) {
+      const Cage part = part_of(cage, p);
+      const double share = std::max(kLeast, area_of(flattened(part)) / area);
+      meshes.push_back(domain_mesh(part, {static_cast<int>(share * options.vertices)}));
+    }
+    return joined(meshes);
+  }
   const FlatCage flat = flattened(cage);
   return settled(cage, flat, polygon_mesh(flat, options));
 }
 
 Mesh graded_mesh(const Cage& cage, const std::function<double(Complex)>& length_at, int most) {
   check_rest_cage(cage);
+  check(cage.parts.empty(), "graded_mesh: one part");
   const FlatCage flat = flattened(cage);
   Sizing sizing(flat);
   sizing.set_lengths(flat, length_at);

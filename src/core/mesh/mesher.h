@@ -22,15 +22,16 @@ struct MeshOptions {
 /// vertex.
 Mesh domain_mesh(PolygonView polygon, const MeshOptions& options = {});
 
-/// Meshes the inside of a rest cage. The vertices of the cage are mesh vertices, and every boundary
-/// vertex lies on the curves of the cage. The outline of the mesh follows the curves to within 5e-5
-/// of the cage's size.
+/// Meshes the inside of a rest cage. The parts of a cage have about as many vertices as their areas
+/// suggest, but at least a hundredth of all. The vertices of the cage are mesh vertices, and every
+/// boundary vertex lies on the curves of the cage. The outline of the mesh follows the curves to
+/// within 5e-5 of the cage's size.
 Mesh domain_mesh(const Cage& cage, const MeshOptions& options = {});
 
 /// A mesh whose edges have about the lengths, which must be positive, that a function gives for
-/// points of the cage. Lengths that would change by more than 0.3 times the way between
-/// two points are shortened. If there would be more than `most` vertices, all edges are longer by
-/// the same factor. Cost: also about 2,500 calls of the function.
+/// points of the cage, which must have one part. Lengths that would change by more than 0.3 times
+/// the way between two points are shortened. If there would be more than `most` vertices, all edges
+/// are longer by the same factor. Cost: also about 2,500 calls of the function.
 Mesh graded_mesh(const Cage& cage, const std::function<double(Complex)>& length_at, int most);
 
 }  // namespace holomorph

@@ -34,7 +34,7 @@ std::vector<int> disk_boundary(const Surface& surface) {
 
 std::vector<std::vector<int>> boundary_loops(int count,
                                              std::span<const std::array<int, 3>> triangles,
-                                             const std::string& what) {
+                                             const std::string& what, int parts) {
   const auto refuse = [&what](const std::string& why) { holomorph::refuse(what, why); };
   if (triangles.empty()) refuse("it has no triangles");
   std::map<VertexPair, int> directed;
@@ -49,8 +49,12 @@ std::vector<std::vector<int>> boundary_loops(int count,
         refuse("an edge has more than two triangles, or two of opposite orientation");
       parent[static_cast<size_t>(root(parent, a))] = root(parent, b);
     }
-  for (int i = 1; i < count; ++i)
-    if (root(parent, i) != root(parent, 0)) refuse("it has several parts");
+  int found = 0;
+  for (int i = 0; i < count; ++i) found += root(parent, i) == i;
+  if (found != parts)
+    refuse(parts == 1 ? "it has several parts"
+                      : "its number of parts is " + std::to_string(found) + " instead of " +
+                            std::to_string(parts));
   std::map<int, int> next;  // along the boundary
   size_t edges = 0;
   for (const auto& [edge, times] : directed) {
@@ -67,7 +71,7 @@ std::vector<std::vector<int>> boundary_loops(int count,
     for (const int at : loop) next.erase(at);
   }
   const long euler = count - static_cast<long>(edges) + static_cast<long>(triangles.size());
-  if (euler != 2 - static_cast<long>(loops.size())) refuse("it has a handle");
+  if (euler != 2 * parts - static_cast<long>(loops.size())) refuse("it has a handle");
   return loops;
 }
 

@@ -23,10 +23,10 @@ struct Surface {
 std::vector<int> disk_boundary(const Surface& surface);
 
 /// The loops of the boundary of triangles over the vertices 0 to count - 1, in the direction of the
-/// triangles. Throws the same errors, except that holes are allowed. Error messages call the
-/// triangles `what`.
+/// triangles. Throws the same errors, except that holes are allowed, and that there must be this
+/// number of parts. Error messages call the triangles `what`.
 std::vector<std::vector<int>> boundary_loops(int count,
                                              std::span<const std::array<int, 3>> triangles,
-                                             const std::string& what);
+                                             const std::string& what, int parts = 1);
 
 }  // namespace holomorph

@@ -58,9 +58,9 @@ void check_mesh(const Mesh& mesh, const Cage& cage) {
       refuse("the mesh does not belong to this cage: the cage vertex " + point_text(corner) +
              " is not one of its cage_vertices; make the mesh with mesh_of or domain_mesh");
   const Index loops = cage.loops().count();
-  if (static_cast<Index>(mesh.holes.size()) != loops - 1 ||
-      !std::ranges::is_sorted(mesh.holes, std::less_equal{}) ||
-      std::ranges::any_of(mesh.holes, [&](Index first) {
+  if (static_cast<Index>(mesh.starts.size()) != loops - 1 ||
+      !std::ranges::is_sorted(mesh.starts, std::less_equal{}) ||
+      std::ranges::any_of(mesh.starts, [&](Index first) {
         return first < 3 || first + 3 > static_cast<Index>(mesh.boundary.size());
       }))
     refuse("the mesh does not belong to this cage: its boundary must have " +
@@ -119,7 +119,10 @@ void check_rest(const Method& method, const Rest& rest) {
   for (const Method& other : methods())
     for (const ParameterSpec& spec : other.parameters)
       check_parameter(spec, parameters_of(rest, other));
-  if (!method.allows_holes && !rest.cage.holes.empty())
+  if (!method.allows_parts && !rest.cage.parts.empty())
+    refuse("\"" + method.label + "\" needs a cage with one part; this one has " +
+           std::to_string(rest.cage.part_count()) + "; draw one outline around all of them");
+  if (!method.allows_holes && rest.cage.has_holes())
     refuse("\"" + method.label +
            "\" does not work in a cage with holes; fill the holes or choose "
            "another method");

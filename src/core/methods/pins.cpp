@@ -30,7 +30,7 @@ Cage basis_cage(const Cage& cage) {
   const double step = perimeter(outline_of(cage)) / kBasisControls;
   Cage basis;
   for (Index e = 0; e < cage.size(); ++e) {
-    if (std::ranges::binary_search(cage.holes, e)) basis.holes.push_back(basis.size());
+    if (std::ranges::binary_search(cage.starts, e)) basis.starts.push_back(basis.size());
     const Points ends{cage.vertex(e), cage.end_vertex(e)};
     Points controls = is_straight(cage, e) ? ends : cage.controls(e);
     const double controls_each = static_cast<double>(controls.size()) - 1;

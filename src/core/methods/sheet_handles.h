@@ -20,6 +20,7 @@ class SheetHandles {
   const std::vector<size_t>& pins() const { return handles_.pins(); }
   const std::vector<Location>& places() const { return places_; }
   const std::string& note() const { return handles_.note(); }
+  bool moves_cage() const { return handles_.moves_cage(); }
 
   /// The radius of the disk around a pin without one.
   double usual_radius(Complex pin) const;

@@ -13,7 +13,7 @@ constexpr double kDiskReach = 1.05;
 }  // namespace
 
 HalfWidth::HalfWidth(const Mesh& mesh) {
-  Polygon outline{{}, mesh.holes};
+  Polygon outline{{}, mesh.starts};
   for (const int v : mesh.boundary) outline.points.push_back(mesh.vertices[static_cast<size_t>(v)]);
   std::vector<Disk> disks;
   const auto add = [&](Complex center) {

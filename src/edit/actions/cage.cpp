@@ -23,7 +23,7 @@ bool has_cage_selection(const Workspace& w) {
 }
 
 void cage_from_picture(Workspace& w) {
-  make_picture_cage(w, [&w](Cage cage) {
+  make_picture_cage(w, method_named(w.shown.own().method), [&w](Cage cage) {
     if (!w.commit("Cage from picture", with_cage(w.shown.own(), std::move(cage)),
                   EditBase::document))
       return false;
@@ -108,7 +108,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.fill",
           .label = "Fill holes",
           .hint = "Remove the holes with selected points, or all holes of the cage",
-          .enabled = [](const Workspace& w) { return !w.shown.deformation().rest.holes.empty(); },
+          .enabled = [](const Workspace& w) { return w.shown.deformation().rest.has_holes(); },
           .run =
               [](Workspace& w) {
                 w.commit("Fill holes", filled(w.shown.deformation(), w.selection));

@@ -138,26 +138,38 @@ Deformation inserted(Deformation deformation, Index segment, double t) {
 }
 
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit) {
-  const std::vector<Index> holes = deformation.rest.holes;
-  const Loops loops(deformation.rest.size(), holes);
+  const Cage rest = deformation.rest;
+  const Loops loops = rest.loops();
   std::vector<Index> left;  // vertices that remain in each loop
   for (Index l = 0; l < loops.count(); ++l) left.push_back(loops.length(l));
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage && handle.control == 0)
       --left[static_cast<size_t>(loops.loop_of(handle.index))];
-  if (deformation.has_cage() && left[0] < 3 && left[0] < loops.length(0))
+  Index emptied = 0;  // parts that are deleted as a whole
+  for (Index part = 0; part < rest.part_count(); ++part)
+    emptied += left[static_cast<size_t>(loops_of_part(rest, part).first)] < 3;
+  if (deformation.has_cage() && emptied == rest.part_count() &&
+      std::ranges::any_of(selection, [](const Handle& handle) {
+        return handle.kind == Handle::Kind::cage && handle.control == 0;
+      }))
     throw Error(ErrorKind::bad_input,
                 "a cage needs at least three points; select fewer points to delete");
   // Handles are deleted in decreasing order, which keeps the remaining indices valid.
-  std::set<Index> erased_holes;
+  std::set<Index> erased_loops;
   const std::vector<Handle> downwards(selection.rbegin(), selection.rend());
   for (const Handle& handle : downwards) {
     if (handle.kind == Handle::Kind::cage) {
-      // A hole with fewer than three points is deleted as a whole.
+      // A hole or a part with fewer than three points is deleted as a whole.
       const Index loop = loops.loop_of(handle.index);
       if (left[static_cast<size_t>(loop)] < 3) {
-        if (erased_holes.insert(loop).second)
+        if (!erased_loops.insert(loop).second) continue;
+        if (rest.is_hole(loop)) {
           deformation = without_hole(std::move(deformation), loop);
+        } else {
+          Index part = 0;
+          while (loops_of_part(rest, part).first != loop) ++part;
+          deformation = without_part(std::move(deformation), part);
+        }
         continue;
       }
     }

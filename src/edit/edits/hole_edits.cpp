@@ -27,29 +27,54 @@ Cage with_controls(Cage hole, const Points& controls) {
 
 Deformation with_hole(Deformation deformation, const Cage& hole, const Points& posed,
                       const std::vector<Points>& in_keyframes) {
+  const Index part = PartFinder(deformation.rest).at(hole.vertex(0));
   for (size_t i = 0; i < deformation.keyframes.size(); ++i)
     if (Pose& key = deformation.keyframes[i].pose; fits(deformation, key))
       add_hole(key.cage,
-               with_controls(hole, i < in_keyframes.size() ? in_keyframes[i] : Points{}).segments);
-  add_hole(deformation.rest, hole.segments);
-  add_hole(deformation.pose, with_controls(hole, posed).segments);
-  if (!deformation.hole_extras.empty()) deformation.hole_extras.emplace_back();
+               with_controls(hole, i < in_keyframes.size() ? in_keyframes[i] : Points{}).segments,
+               part);
+  const Index loop = loops_of_part(deformation.rest, part).end;
+  add_hole(deformation.rest, hole.segments, part);
+  add_hole(deformation.pose, with_controls(hole, posed).segments, part);
+  if (!deformation.loop_extras.empty())
+    deformation.loop_extras.insert(deformation.loop_extras.begin() + (loop - 1), Extra{});
   return deformation;
 }
 
-Deformation without_hole(Deformation deformation, Index loop) {
+namespace {
+
+/// Removes loops from `range.first` to before `range.end` from the rest, the pose and the keyframes
+/// by `erase(cage)`.
+template <class Erase>
+Deformation without_loops(Deformation deformation, LoopRange range, Erase erase) {
   const Loops loops = deformation.rest.loops();
+  const Index first = loops.first(range.first), end = loops.end(range.end - 1);
   for_fitting_keys(deformation, [&](Pose& pose) {
-    for (Index v = loops.end(loop); v-- > loops.first(loop);)
-      follow_erasure(pose.corners, deformation.corners, v);
-    erase_hole(pose.cage, loop);
+    for (Index v = end; v-- > first;) follow_erasure(pose.corners, deformation.corners, v);
+    erase(pose.cage);
   });
-  for (Index v = loops.end(loop); v-- > loops.first(loop);) follow_erasure(deformation.corners, v);
-  erase_hole(deformation.rest, loop);
-  erase_hole(deformation.pose, loop);
-  if (!deformation.hole_extras.empty())
-    deformation.hole_extras.erase(deformation.hole_extras.begin() + (loop - 1));
+  for (Index v = end; v-- > first;) follow_erasure(deformation.corners, v);
+  erase(deformation.pose);
+  erase(deformation.rest);
+  if (!deformation.loop_extras.empty()) {
+    // If the first loop goes, the next one takes its place without its extras.
+    const auto extra = deformation.loop_extras.begin() + std::max<Index>(range.first - 1, 0);
+    deformation.loop_extras.erase(extra, extra + (range.end - range.first));
+  }
   return deformation;
+}
+
+}  // namespace
+
+Deformation without_hole(Deformation deformation, Index loop) {
+  return without_loops(std::move(deformation), {loop, loop + 1},
+                       [loop](Cage& cage) { erase_hole(cage, loop); });
+}
+
+Deformation without_part(Deformation deformation, Index part) {
+  const LoopRange range = loops_of_part(deformation.rest, part);
+  return without_loops(std::move(deformation), range,
+                       [part](Cage& cage) { erase_part(cage, part); });
 }
 
 Deformation filled(Deformation deformation, const Selection& selection) {
@@ -57,9 +82,10 @@ Deformation filled(Deformation deformation, const Selection& selection) {
   for (const Handle& handle : selection)
     if (handle.kind == Handle::Kind::cage)
       loops.insert(deformation.rest.loops().loop_of(handle.index));
-  loops.erase(0);
+  std::erase_if(loops, [&](Index l) { return !deformation.rest.is_hole(l); });
   if (loops.empty())
-    for (Index l = 1; l < deformation.rest.loops().count(); ++l) loops.insert(l);
+    for (Index l = 1; l < deformation.rest.loops().count(); ++l)
+      if (deformation.rest.is_hole(l)) loops.insert(l);
   for (auto loop = loops.rbegin(); loop != loops.rend(); ++loop)
     deformation = without_hole(std::move(deformation), *loop);
   return deformation;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scene/joined_cage.h"
 
 namespace holomorph {
 namespace {
@@ -56,7 +57,7 @@ Deformation with_method(Deformation deformation, const std::string& id) {
   if (auto kept = deformation.other_parameters.extract(id))
     deformation.parameters = std::move(kept.mapped());
   deformation.method = id;
-  return deformation;
+  return method_named(id).allows_parts ? deformation : with_joined_parts(std::move(deformation));
 }
 
 Deformation with_chosen_method(Deformation deformation, const std::string& id) {

@@ -20,7 +20,8 @@ bool has_method_for(const Deformation& deformation, MethodUse use);
 /// Switches to the usual method for this use.
 Deformation with_method_for(Deformation deformation, MethodUse use);
 
-/// Switches to another method and restores the parameters with which it was last used.
+/// Switches to another method and restores the parameters with which it was last used. Parts of the
+/// cage are joined if the method needs one outline.
 Deformation with_method(Deformation deformation, const std::string& id);
 /// Chooses another method and keeps folds prevented, or not. Where the switch does not exist, its
 /// state is kept until a method with a switch is chosen again.

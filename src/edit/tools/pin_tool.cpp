@@ -82,11 +82,10 @@ class PinTool final : public HandleTool {
   void set_first(const Input& input, Workspace& workspace) {
     if (!workspace.document.image())
       return workspace.messages.say(needs_a_cage(workspace, "Pins need a cage"));
-    make_picture_cage(workspace, [this, input, &workspace](Cage cage) {
+    const Method& method = method_of_first_pin(workspace);
+    make_picture_cage(workspace, method, [this, input, &workspace](Cage cage) {
       if (!encloses(outline_of(cage), input.position)) {
-        workspace.messages.say(encloses(outline_of(loop_of(cage, 0)), input.position)
-                                   ? "There is a hole here. Click the picture to set a pin."
-                                   : "Click the largest part of the picture to set a pin.");
+        workspace.messages.say("There is nothing here. Click the picture to set a pin.");
         return false;
       }
       const Deformation caged = with_cage(workspace.shown.own(), std::move(cage));

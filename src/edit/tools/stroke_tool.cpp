@@ -103,10 +103,13 @@ class StrokeTool final : public HandleTool {
     }
     Points rest, pose;
     for (const Complex& z : drawn) {
-      const auto at = rest_at(workspace, z);
+      auto at = rest_at(workspace, z);
+      // A stroke over several parts bends them together, over an outline around them.
+      if (!at && workspace.at_rest() && !workspace.shown.deformation().rest.parts.empty()) at = z;
       if (!at) continue;
       rest.push_back(*at);
-      pose.push_back(workspace.at_rest() ? posed_at(workspace.map(), *at) : z);
+      pose.push_back(workspace.at_rest() && rest_at(workspace, z) ? posed_at(workspace.map(), *at)
+                                                                  : z);
     }
     if (rest.size() < 2)
       return workspace.messages.say("Draw the stroke on the picture, inside the cage.");

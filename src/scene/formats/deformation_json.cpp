@@ -19,23 +19,45 @@ void check_sizes(const Reader& reader, const Cage& rest, const Cage& pose) {
                         std::to_string(rest.size()) + " at rest; they must agree");
 }
 
+/// A loop of the cage, at rest and posed.
+struct PosedLoop {
+  Cage rest, pose;
+};
+PosedLoop read_posed_loop(const Reader& reader, const char* what) {
+  reader.object();
+  PosedLoop loop{read_loop(reader["rest"]), {}};
+  loop.pose = reader.has("pose") ? read_loop(reader["pose"]) : loop.rest;
+  check_sizes(reader, loop.rest, loop.pose);
+  if (loop.rest.size() < 3)
+    reader["rest"].fail(std::string(what) + " needs at least three segments");
+  return loop;
+}
+
+/// The holes of the last part.
 void read_holes(const Reader& list, Deformation& deformation) {
   if (list.array().size() > kMaxHoles)
     list.fail("more than " + std::to_string(kMaxHoles) + " holes");
   if (list.size() > 0 && !deformation.has_cage()) list.fail("there is no cage for these holes");
+  const Index part = deformation.rest.part_count() - 1;
   for (size_t i = 0; i < list.size(); ++i) {
-    const Reader hole = list[i].object();
-    const Cage rest = read_loop(hole["rest"]),
-               pose = hole.has("pose") ? read_loop(hole["pose"]) : rest;
-    check_sizes(hole, rest, pose);
-    if (rest.size() < 3) hole["rest"].fail("a hole needs at least three segments");
-    add_hole(deformation.rest, rest.segments);
-    add_hole(deformation.pose, pose.segments);
-    deformation.hole_extras.push_back(hole.others({"rest", "pose"}));
+    const PosedLoop hole = read_posed_loop(list[i], "a hole");
+    add_hole(deformation.rest, hole.rest.segments, part);
+    add_hole(deformation.pose, hole.pose.segments, part);
+    deformation.loop_extras.push_back(list[i].others({"rest", "pose"}));
   }
-  if (std::ranges::all_of(deformation.hole_extras, &Extra::empty)) deformation.hole_extras.clear();
-  if (deformation.rest.segments.size() > kMaxSegments)
-    list.fail("more than " + std::to_string(kMaxSegments) + " segments in all loops");
+}
+
+void read_parts(const Reader& list, Deformation& deformation) {
+  if (list.array().size() >= kMaxParts)
+    list.fail("more than " + std::to_string(kMaxParts) + " parts");
+  if (list.size() > 0 && !deformation.has_cage()) list.fail("there is no first part");
+  for (size_t i = 0; i < list.size(); ++i) {
+    const PosedLoop part = read_posed_loop(list[i], "a part");
+    add_part(deformation.rest, part.rest);
+    add_part(deformation.pose, part.pose);
+    deformation.loop_extras.push_back(list[i].others({"rest", "pose", "holes"}));
+    if (list[i].has("holes")) read_holes(list[i]["holes"], deformation);
+  }
 }
 
 void read_cage(const Reader& reader, Deformation& deformation) {
@@ -44,12 +66,16 @@ void read_cage(const Reader& reader, Deformation& deformation) {
   deformation.pose = reader.has("pose") ? read_loop(reader["pose"]) : deformation.rest;
   check_sizes(reader, deformation.rest, deformation.pose);
   if (reader.has("holes")) read_holes(reader["holes"], deformation);
-  deformation.cage_extra = reader.others({"rest", "pose", "holes"});
+  if (reader.has("parts")) read_parts(reader["parts"], deformation);
+  if (std::ranges::all_of(deformation.loop_extras, &Extra::empty)) deformation.loop_extras.clear();
+  if (deformation.rest.segments.size() > kMaxSegments)
+    reader.fail("more than " + std::to_string(kMaxSegments) + " segments in all loops");
+  deformation.cage_extra = reader.others({"rest", "pose", "holes", "parts"});
   if (!deformation.has_cage()) return;  // no cage drawn yet
   try {
     check_rest_cage(deformation.rest);
   } catch (const Error& error) {
-    (deformation.rest.holes.empty() ? reader["rest"] : reader).fail(error.what(), error.where());
+    (deformation.rest.starts.empty() ? reader["rest"] : reader).fail(error.what(), error.where());
   }
 }
 
@@ -269,6 +295,9 @@ Deformation read_deformation(const Reader& reader) {
       reader["surface"].fail("a surface needs its flat boundary as the outline");
   }
   if (reader.has("method")) read_method(reader["method"], deformation);
+  if (const Method& method = method_named(deformation.method);
+      !method.allows_parts && !deformation.rest.parts.empty())
+    reader["cage"]["parts"].fail("method '" + method.id + "' needs one outline around all parts");
   if (reader.has("keyframes")) {
     const Reader keys = reader["keyframes"].array();
     if (keys.size() > kMaxKeyframes)
@@ -279,20 +308,35 @@ Deformation read_deformation(const Reader& reader) {
   return deformation;
 }
 
-void write_deformation(const Deformation& deformation, Json& document) {
+namespace {
+
+Json cage_json(const Deformation& deformation) {
+  const auto posed_loop = [&](Index l) {
+    Json json;
+    json["rest"] = loop_json(deformation.rest, l);
+    json["pose"] = loop_json(deformation.pose, l);
+    if (l > 0 && deformation.loop_extras.size() == deformation.rest.starts.size())
+      add_extra(json, deformation.loop_extras[static_cast<size_t>(l - 1)]);
+    return json;
+  };
   Json cage;
-  cage["rest"] = loop_json(deformation.rest, 0);
-  cage["pose"] = loop_json(deformation.pose, 0);
-  for (Index l = 1; l < deformation.rest.loops().count(); ++l) {
-    Json hole;
-    hole["rest"] = loop_json(deformation.rest, l);
-    hole["pose"] = loop_json(deformation.pose, l);
-    if (deformation.hole_extras.size() == deformation.rest.holes.size())
-      add_extra(hole, deformation.hole_extras[static_cast<size_t>(l - 1)]);
-    cage["holes"].push_back(std::move(hole));
+  for (Index part = 0; part < deformation.rest.part_count(); ++part) {
+    const auto [first, end] = loops_of_part(deformation.rest, part);
+    Json json = posed_loop(first);
+    for (Index l = first + 1; l < end; ++l) json["holes"].push_back(posed_loop(l));
+    if (part == 0)
+      cage = std::move(json);
+    else
+      cage["parts"].push_back(std::move(json));
   }
   add_extra(cage, deformation.cage_extra);
-  document["cage"] = std::move(cage);
+  return cage;
+}
+
+}  // namespace
+
+void write_deformation(const Deformation& deformation, Json& document) {
+  document["cage"] = cage_json(deformation);
   for (const Pin& pin : deformation.pins) document["pins"].push_back(pin_json(pin));
   for (const Stroke& stroke : deformation.strokes)
     document["strokes"].push_back(stroke_json(stroke));

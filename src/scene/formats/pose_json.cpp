@@ -49,17 +49,33 @@ auto read_list(const Reader& list, size_t most, Read read) {
   return items;
 }
 
+/// An outline and its holes; holes that are not given are those at rest.
+Cage read_posed_part(const Reader& reader, const Cage& rest) {
+  Cage part = read_loop(reader["cage"]);
+  const size_t holes = reader.has("holes") ? reader["holes"].array().size() : rest.starts.size();
+  if (holes > kMaxHoles) reader["holes"].fail("more than " + std::to_string(kMaxHoles) + " holes");
+  for (size_t i = 0; i < holes; ++i)
+    add_hole(part, reader.has("holes") ? read_loop(reader["holes"][i]).segments
+                                       : loop_of(rest, static_cast<Index>(i) + 1).segments);
+  return part;
+}
+
 Pose read_pose(const Reader& reader, const Deformation& deformation) {
   reader.object();
   Pose pose = whole_pose_of(at_rest(deformation));
   if (reader.has("cage")) {
-    const Cage rest = std::exchange(pose.cage, read_loop(reader["cage"]));
-    const size_t holes = reader.has("holes") ? reader["holes"].array().size() : rest.holes.size();
-    if (holes > kMaxHoles)
-      reader["holes"].fail("more than " + std::to_string(kMaxHoles) + " holes");
-    for (size_t i = 0; i < holes; ++i)
-      add_hole(pose.cage, reader.has("holes") ? read_loop(reader["holes"][i]).segments
-                                              : loop_of(rest, static_cast<Index>(i) + 1).segments);
+    const Cage rest = pose.cage;
+    pose.cage = read_posed_part(reader, part_of(rest, 0));
+    const size_t parts = reader.has("parts") ? reader["parts"].array().size() : rest.parts.size();
+    if (parts >= kMaxParts)
+      reader["parts"].fail("more than " + std::to_string(kMaxParts) + " parts");
+    for (size_t i = 0; i < parts; ++i) {
+      const Index part = static_cast<Index>(i) + 1;
+      const Cage at_rest = part < rest.part_count() ? part_of(rest, part) : Cage{};
+      add_part(pose.cage, reader.has("parts")
+                              ? read_posed_part(reader["parts"][i].object(), at_rest)
+                              : at_rest);
+    }
   }
   if (reader.has("pins")) pose.pins = read_list(reader["pins"], kMaxPins, read_pose_pin);
   if (reader.has("strokes"))
@@ -72,14 +88,25 @@ Pose read_pose(const Reader& reader, const Deformation& deformation) {
   return pose;
 }
 
+/// An outline and its holes. `with_holes`: writes an empty list if there are none.
+Json posed_part_json(const Cage& cage, Index part, bool with_holes) {
+  const auto [first, end] = loops_of_part(cage, part);
+  Json json = Json::object();
+  json["cage"] = loop_json(cage, first);
+  if (with_holes) json["holes"] = Json::array();
+  for (Index l = first + 1; l < end; ++l) json["holes"].push_back(loop_json(cage, l));
+  return json;
+}
+
 /// The pose as JSON. If the deformation has handles of some kind but the pose has none, writes an
 /// empty list. Without this list, the reader would place the handles at rest.
 Json pose_json(const Pose& pose, const Deformation& deformation) {
-  Json json = Json::object();
-  json["cage"] = loop_json(pose.cage, 0);
-  if (!deformation.rest.holes.empty()) json["holes"] = Json::array();
-  for (Index l = 1; l < pose.cage.loops().count(); ++l)
-    json["holes"].push_back(loop_json(pose.cage, l));
+  Json json = posed_part_json(pose.cage, 0, part_of(deformation.rest, 0).has_holes());
+  if (!deformation.rest.parts.empty()) json["parts"] = Json::array();
+  for (Index part = 1; part < pose.cage.part_count(); ++part)
+    json["parts"].push_back(posed_part_json(
+        pose.cage, part,
+        part < deformation.rest.part_count() && part_of(deformation.rest, part).has_holes()));
   if (!deformation.pins.empty()) json["pins"] = Json::array();
   if (!deformation.strokes.empty()) json["strokes"] = Json::array();
   if (!deformation.corners.empty()) json["corners"] = Json::array();
@@ -150,7 +177,8 @@ Keyframe read_keyframe(const Reader& reader, const Deformation& deformation) {
   key.pose = reader.has("pose") ? read_pose(reader["pose"], deformation)
                                 : whole_pose_of(at_rest(deformation));
   if (reader.has("pose"))
-    key.pose_extra = reader["pose"].others({"cage", "holes", "pins", "strokes", "corners"});
+    key.pose_extra =
+        reader["pose"].others({"cage", "holes", "parts", "pins", "strokes", "corners"});
   if (reader.has("ease")) {
     const std::string ease = reader["ease"].text();
     const auto found = std::ranges::find(kEases, ease);

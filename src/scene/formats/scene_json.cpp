@@ -354,9 +354,11 @@ int version_of(const Scene& scene) {
     return std::ranges::any_of(scene.layers,
                                [&](const SharedLayer& layer) { return has(layer->deformation); });
   };
-  if (any([](const Deformation& d) { return d.frame != Frame::free || d.held_beyond; }))
+  if (any([](const Deformation& d) {
+        return d.frame != Frame::free || d.held_beyond || !d.rest.parts.empty();
+      }))
     return kFrameVersion;
-  if (any([](const Deformation& d) { return !d.rest.holes.empty(); })) return kHoleVersion;
+  if (any([](const Deformation& d) { return !d.rest.starts.empty(); })) return kHoleVersion;
   return has_layers(scene) ? kLayeredVersion : kPlainVersion;
 }
 

@@ -92,9 +92,62 @@ void separate_handles(Cage& cage) {
   }
 }
 
+/// A cage with these loops and the holes and parts of another one.
+Cage cage_like(const Cage& other, const std::vector<std::vector<Points>>& loops) {
+  Cage cage;
+  for (Index part = 0; part < other.part_count(); ++part) {
+    const auto [first, end] = loops_of_part(other, part);
+    Cage own{loops[static_cast<size_t>(first)]};
+    for (Index l = first + 1; l < end; ++l) add_hole(own, loops[static_cast<size_t>(l)]);
+    if (part == 0)
+      cage = std::move(own);
+    else
+      add_part(cage, own);
+  }
+  return cage;
+}
+
+/// A cage of loops in any order. If all but one lie inside that one, they are its holes. Loops that
+/// touch or cross are holes of the largest one, so that the cage is refused with a reason.
+Cage nested_cage(std::vector<std::vector<Points>> loops) {
+  const auto area = [](const std::vector<Points>& loop) {
+    return std::abs(signed_area(outline_of(Cage{loop})));
+  };
+  Polygon all;
+  for (const std::vector<Points>& loop : loops) {
+    if (!all.points.empty()) all.starts.push_back(static_cast<Index>(all.points.size()));
+    const Polygon outline = outline_of(Cage{loop});
+    all.points.insert(all.points.end(), outline.begin(), outline.end());
+  }
+  const bool simple = loops.size() > 1 && !self_crossing(all);
+  const std::vector<int> around = simple ? nesting_of(all) : std::vector<int>{};
+  if (!simple || std::ranges::count_if(around, [](int n) { return n % 2 == 0; }) == 1) {
+    const auto outer = std::ranges::max_element(loops, {}, area);
+    std::rotate(loops.begin(), outer, outer + 1);
+    Cage cage{loops[0]};
+    for (size_t l = 1; l < loops.size(); ++l) add_hole(cage, loops[l]);
+    return cage;
+  }
+  Cage cage;
+  for (size_t outline = 0; outline < loops.size(); ++outline) {
+    if (around[outline] % 2 == 1) continue;
+    Cage part{loops[outline]};
+    const Points edge = outline_of(part).points;
+    for (size_t l = 0; l < loops.size(); ++l)
+      if (around[l] == around[outline] + 1 && winding_number(edge, loops[l][0][0]) != 0)
+        add_hole(part, loops[l]);
+    if (cage.size() == 0)
+      cage = std::move(part);
+    else
+      add_part(cage, part);
+  }
+  return cage;
+}
+
 }  // namespace
 
-Cage cage_of_svg(const std::string& text, const std::string& name, double height, PathUse use) {
+Cage cage_of_svg(const std::string& text, const std::string& name, double height, PathUse use,
+                 const Cage* rest) {
   static constexpr const char* kIds[] = {"rest", "pose", "outline"};
   const pugi::xml_document document = xml_of(text, name);
   const pugi::xml_node path = path_of(document, kIds[static_cast<int>(use)]);
@@ -118,21 +171,17 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
   for (auto& loop : loops)
     for (Points& segment : loop)
       for (Complex& z : segment) z = {z.real(), height - z.imag()};
-  // The subpath with the largest area is the outer loop; the others are holes.
-  const auto outer = std::ranges::max_element(loops, {}, [](const std::vector<Points>& loop) {
-    return std::abs(signed_area(outline_of(Cage{loop})));
-  });
-  std::rotate(loops.begin(), outer, outer + 1);
-  Cage cage{loops[0]};
-  for (size_t l = 1; l < loops.size(); ++l) add_hole(cage, loops[l]);
+  Cage cage = rest && rest->loops().count() == static_cast<Index>(loops.size())
+                  ? cage_like(*rest, loops)
+                  : nested_cage(std::move(loops));
   if (cage.size() > static_cast<Index>(kMaxSegments))
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(cage.size()) +
                                           " segments; at most 5000 are allowed");
-  for (const auto& loop : loops)
-    if (loop.size() < 3 && use != PathUse::outline)
+  for (Index l = 0; l < cage.loops().count(); ++l)
+    if (const Index length = cage.loops().length(l); length < 3 && use != PathUse::outline)
       throw Error(ErrorKind::bad_input,
-                  name + ": " + (loops.size() > 1 ? "a subpath has " : "the path has ") +
-                      std::to_string(loop.size()) +
+                  name + ": " + (cage.loops().count() > 1 ? "a subpath has " : "the path has ") +
+                      std::to_string(length) +
                       " segments; a cage and its holes need at least three");
   if (use == PathUse::rest) separate_handles(cage);
   return cage;

@@ -16,12 +16,13 @@ enum class PathUse { rest, pose, outline };
 /// Reads a path of an SVG file as a cage in plane coordinates: y = height - y_svg. `height` is the
 /// height of the picture; if it is not positive, the drawing's height is used. Reads the path with
 /// the id "rest", "pose" or "outline", or the first path if there is none. Arcs become cubics. Each
-/// subpath must be closed, or it is closed with a line. The subpath with the largest area becomes
-/// the outer loop, and the others become holes; an outline has a single subpath. Throws
+/// subpath must be closed, or it is closed with a line. Subpaths inside others become their holes,
+/// and those beside others, or in their holes, become parts; an outline has a single subpath. A
+/// pose takes the subpaths in the order of the loops of its `rest`, if they are as many. Throws
 /// Error{bad_input} with the reason and the position if the file has no path, or if the path has
 /// transforms or damaged numbers.
 Cage cage_of_svg(const std::string& text, const std::string& name, double height,
-                 PathUse use = PathUse::rest);
+                 PathUse use = PathUse::rest, const Cage* rest = nullptr);
 
 /// An SVG drawing of the cage, with the size of the picture. The posed cage is the path "pose". If
 /// the rest cage is different, it is the dashed path "rest". Pins are circles. cage_of_svg can read

@@ -166,7 +166,7 @@ Cage rough_cage(unsigned seed, int holes) {
   Cage cage =
       polygon_cage(shapes::star(std::uniform_int_distribution(60, 110)(random), 0.15, seed));
   for (int hole = 0; hole < holes; ++hole) {
-    cage.holes.push_back(cage.size());
+    cage.starts.push_back(cage.size());
     for (int i = 0; i < 12; ++i)
       cage.segments.push_back(
           {Complex(170 + 60 * hole, 200) + std::polar(15.0, -2 * kPi * i / 12.0)});
@@ -191,7 +191,7 @@ TEST_CASE("Hilbert coordinates: many points at once give what each gives alone")
       std::vector<Index> corners(static_cast<size_t>(cage.size()));
       std::iota(corners.begin(), corners.end(), 0);
       const HilbertCoordinates coordinates(
-          cage, cage.holes.empty() ? corner_values(cage, corners) : vertex_weights(cage));
+          cage, cage.starts.empty() ? corner_values(cage, corners) : vertex_weights(cage));
       Points points;
       const FlatCage flat = flattened(cage);
       for (const Complex& z : domain_mesh(cage, {few_or_many(2500, 6000)}).vertices)

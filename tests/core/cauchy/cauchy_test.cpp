@@ -456,7 +456,7 @@ TEST_CASE("Inside: curves and holes, compared with fine polygons; the boundary i
     std::mt19937 random(seed);
     for (const int degree : {1, 2, 3, 4}) {
       Cage cage = shapes::curved_star(7, degree, 0.3, seed + static_cast<unsigned>(degree));
-      cage.holes.push_back(cage.size());
+      cage.starts.push_back(cage.size());
       const Cage hole = shapes::curved_star(5, degree, 0.3, seed + 90);
       for (const Points& segment : hole.segments) {
         Points smaller;

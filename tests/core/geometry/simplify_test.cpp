@@ -59,7 +59,7 @@ TEST_CASE("Thinned cages: they surround the shape, within the tolerance, and are
     INFO("seed " << seed << ": " << polygon.size() << " vertices, " << thinned.size());
     CHECK_FALSE(self_crossing(vertices_of(loop_of(thinned, 0))));
     CHECK(thinned.size() < cage.size() / 2);
-    REQUIRE(thinned.holes.size() == 1);
+    REQUIRE(thinned.starts.size() == 1);
     CHECK(thinned.loops().length(1) == 3);
     CHECK(Orientation(thinned).is_oriented());
     const Points outer = vertices_of(loop_of(thinned, 0));

@@ -68,7 +68,7 @@ TEST_CASE("A coarser mesh covers the same domain with fewer triangles") {
     }
     Cage with_holes = polygon_cage(shapes::rectangle(300, 200));
     for (const Complex corner : {Complex(40, 40), Complex(180, 90)}) {
-      with_holes.holes.push_back(with_holes.size());
+      with_holes.starts.push_back(with_holes.size());
       for (const Complex by : {Complex(0, 0), Complex(0, 60), Complex(50, 60), Complex(50, 0)})
         with_holes.segments.push_back({corner + by});
     }

@@ -63,7 +63,7 @@ Cage random_domain(std::mt19937& random) {
   };
   Cage cage = polygon_cage(blob({200, 200}, 200, 9 + static_cast<int>(8 * unit(random))));
   const int count = 1 + static_cast<int>(3 * unit(random));
-  for (int tries = 0; tries < 200 && static_cast<int>(cage.holes.size()) < count; ++tries) {
+  for (int tries = 0; tries < 200 && static_cast<int>(cage.starts.size()) < count; ++tries) {
     Cage more = cage;
     add_hole(more, polygon_cage(blob({60 + 280 * unit(random), 60 + 280 * unit(random)},
                                      8 + 50 * unit(random), 3 + static_cast<int>(6 * unit(random))))
@@ -151,22 +151,22 @@ TEST_CASE("Holes: inserting and erasing vertices keeps the loops") {
   Cage cage = ring();
   const Cage before = cage;
   insert_vertex(cage, 15, 0.5);  // the last segment of the outer loop
-  CHECK(cage.holes == std::vector<Index>{17});
+  CHECK(cage.starts == std::vector<Index>{17});
   CHECK(cage.next(16) == 0);
   insert_vertex(cage, 17, 0.5);
-  CHECK(cage.holes == std::vector<Index>{17});
+  CHECK(cage.starts == std::vector<Index>{17});
   CHECK(std::abs(cage.vertex(18) - 0.5 * (before.vertex(16) + before.vertex(17))) < 1e-12);
   erase_vertex(cage, 18, 0.5);
   erase_vertex(cage, 16, 0.5);
   CHECK(cage == before);
   erase_vertex(cage, 16, 0.5);  // the first vertex of the hole
-  CHECK(cage.holes == std::vector<Index>{16});
+  CHECK(cage.starts == std::vector<Index>{16});
   CHECK(cage.vertex(16) == before.vertex(17));
   erase_hole(cage, 1);
   CHECK(cage == loop_of(before, 0));
   const Cage turned = reversed(before);
   CHECK(oriented(turned) == oriented(before));
-  CHECK(turned.holes == before.holes);
+  CHECK(turned.starts == before.starts);
 }
 
 TEST_CASE("Holes: a point counts as inside only outside all holes, and meshes fill the rest") {
@@ -174,7 +174,7 @@ TEST_CASE("Holes: a point counts as inside only outside all holes, and meshes fi
     std::mt19937 random(seed);
     const Cage cage = random_domain(random);
     const Mesh mesh = domain_mesh(cage, {1500});
-    CHECK(mesh.holes.size() == cage.holes.size());
+    CHECK(mesh.starts.size() == cage.starts.size());
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
       const Complex center = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
@@ -185,7 +185,7 @@ TEST_CASE("Holes: a point counts as inside only outside all holes, and meshes fi
     CHECK(area == Approx(area_of(outline_of(cage))).epsilon(1e-9));
     for (Index e = 0; e < cage.size(); ++e)
       CHECK(mesh.vertices[mesh.cage_vertices[e]] == cage.vertex(e));
-    Polygon boundary{{}, mesh.holes};
+    Polygon boundary{{}, mesh.starts};
     for (const int v : mesh.boundary) boundary.points.push_back(mesh.vertices[v]);
     CHECK(turning_number(boundary) == Approx(1));
     CHECK(signed_area(boundary) == Approx(area).epsilon(1e-9));
@@ -197,7 +197,7 @@ TEST_CASE("Holes: a point counts as inside only outside all holes, and meshes fi
     }
     // The caller's own triangles.
     const Mesh again = mesh_of(cage, mesh.vertices, mesh.triangles);
-    CHECK(again.holes.size() == mesh.holes.size());
+    CHECK(again.starts.size() == mesh.starts.size());
     CHECK_THAT(error_message_of([&] { mesh_of(loop_of(cage, 0), mesh.vertices, mesh.triangles); }),
                Catch::Contains("holes"));
   }
@@ -210,7 +210,7 @@ TEST_CASE("Holes: the paths around holes generate all closed paths") {
     const Mesh mesh = domain_mesh(cage, {800});
     const BoundaryBasis basis(cage, 80, 240);
     const HoleLoops loops(mesh, basis.polygon());
-    REQUIRE(loops.paths().size() == cage.holes.size());
+    REQUIRE(loops.paths().size() == cage.starts.size());
     const MeshTree tree(mesh);
     // The argument around a point in a hole jumps; subtracting the correction removes the jumps.
     for (Index l = 1; l < cage.loops().count(); ++l) {
@@ -236,7 +236,7 @@ TEST_CASE("Holes: a similarity of an inner loop alone does not move the picture"
     const Method& method = method_named(id);
     const Rest rest = rest_for(ring(), Precision::full, 400);
     Pose pose{rest.cage, {}};
-    for (Index e = rest.cage.holes[0]; e < rest.cage.size(); ++e)
+    for (Index e = rest.cage.starts[0]; e < rest.cage.size(); ++e)
       for (Complex& z : pose.cage.segments[e]) z = Complex(1.4, 0.6) * z + Complex(30, -70);
     const SampledMap map = method.prepare(rest, nullptr)->deform(pose, {});
     for (size_t i = 0; i < rest.samples.size(); ++i)
@@ -254,7 +254,7 @@ TEST_CASE("Holes: harmonic coordinates of a ring are logarithms of the radius") 
     for (int k = 0; k < 7; ++k) rest.samples.push_back(std::polar(radius, 0.9 * k));
   // All control points of the inner loop move by 1.
   Pose pose{cage, {}};
-  for (Index e = cage.holes[0]; e < cage.size(); ++e)
+  for (Index e = cage.starts[0]; e < cage.size(); ++e)
     for (Complex& z : pose.cage.segments[e]) z += 1.0;
   const SampledMap map =
       method_named("harmonic").prepare(rest, nullptr)->deform(pose, {.derivatives = true});
@@ -416,7 +416,7 @@ TEST_CASE("Holes: a mesh without the cage's holes is refused") {
   add_hole(cage, polygon_cage(Points{{60, 40}, {60, 90}, {120, 90}, {120, 40}}).segments);
   Rest rest = rest_for(cage, Precision::full, 300);
   Mesh wrong = *rest.mesh;
-  wrong.holes.clear();
+  wrong.starts.clear();
   rest.mesh = std::make_shared<const Mesh>(wrong);
   rest.pins.push_back({{20, 20}});
   for (const char* id : {"puppet", "bounded", "arap"})

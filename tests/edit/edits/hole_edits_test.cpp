@@ -25,14 +25,14 @@ TEST_CASE("Pen: a path that starts inside the cage becomes a hole, one outside a
   TestWorkspace desk(shapes::rectangle(200, 150));
   size_t steps = desk.steps();
   draw_hole(desk, kHole);
-  REQUIRE(desk.deformation().rest.holes == std::vector<Index>{4});
+  REQUIRE(desk.deformation().rest.starts == std::vector<Index>{4});
   CHECK(desk.steps() == ++steps);
   CHECK(desk.deformation().pose == desk.deformation().rest);
   CHECK(desk.workspace.tools.active == ToolId::pen);
-  CHECK(desk.workspace.map().prepared()->mesh->holes.size() == 1);
+  CHECK(desk.workspace.map().prepared()->mesh->starts.size() == 1);
   // A second one.
   draw_hole(desk, {{150, 30}, {180, 30}, {165, 60}});
-  CHECK(desk.deformation().rest.holes == std::vector<Index>{4, 8});
+  CHECK(desk.deformation().rest.starts == std::vector<Index>{4, 8});
   CHECK(desk.steps() == ++steps);
   // Holes that cross something are refused with its name, and their paths are kept.
   for (const auto& [path, expected] :
@@ -52,12 +52,12 @@ TEST_CASE("Pen: a path that starts inside the cage becomes a hole, one outside a
   desk.click({90, 60});
   CHECK_FALSE(desk.tool().busy());
   run("edit.undo", desk.workspace);
-  CHECK(desk.deformation().rest.holes == std::vector<Index>{4});
+  CHECK(desk.deformation().rest.starts == std::vector<Index>{4});
   // A path that starts outside replaces the cage.
   desk.settle();
   for (const Complex z : {Complex(-50, -50), Complex(300, -50), Complex(300, 300)}) desk.click(z);
   desk.tool().key(Key::enter, desk.workspace);
-  CHECK(desk.deformation().rest.holes.empty());
+  CHECK(desk.deformation().rest.starts.empty());
   CHECK(desk.deformation().rest.size() == 3);
 }
 
@@ -74,14 +74,14 @@ TEST_CASE("Pen: a hole in a posed picture is drawn at rest, and the pose and key
   CHECK_FALSE(desk.tool().busy());
   desk.settle();
   draw_hole(desk, kHole);
-  if (desk.deformation().rest.holes.empty()) {  // the keyframes' maps were not ready yet
+  if (desk.deformation().rest.starts.empty()) {  // the keyframes' maps were not ready yet
     desk.workspace.map().follow_keys();
     for (int wait = 0; wait < 200 && !desk.workspace.map().follow_keys(); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     CHECK(desk.tool().key(Key::enter, desk.workspace));
     desk.settle();
   }
-  REQUIRE(desk.deformation().rest.holes == std::vector<Index>{4});
+  REQUIRE(desk.deformation().rest.starts == std::vector<Index>{4});
   CHECK(desk.workspace.mode == EditMode::pose);
   CHECK(desk.deformation().pose.vertex(6) != desk.deformation().rest.vertex(6));
   CHECK(playing_keys(desk.deformation()).size() == 2);
@@ -104,12 +104,12 @@ TEST_CASE("Holes: points are moved, inserted and deleted; too few points delete 
   CHECK(desk.deformation().rest.vertex(8) == Complex(60, 65));
   const auto vertex = [](Index i) { return Handle{Handle::Kind::cage, i, 0}; };
   Deformation fewer = erased(desk.deformation(), {vertex(4), vertex(8)});
-  CHECK(fewer.rest.holes == std::vector<Index>{4});
+  CHECK(fewer.rest.starts == std::vector<Index>{4});
   CHECK(fewer.rest.size() == 7);
   fewer = erased(fewer, {vertex(5)});
-  CHECK(fewer.rest.holes.empty());
+  CHECK(fewer.rest.starts.empty());
   CHECK(fewer.rest == polygon_cage(shapes::rectangle(200, 150)));
-  CHECK(fewer.pose.holes.empty());
+  CHECK(fewer.pose.starts.empty());
   // The outer loop keeps three points, whatever the holes have.
   CHECK_THROWS(erased(desk.deformation(), {vertex(0), vertex(1)}));
 }
@@ -124,11 +124,11 @@ TEST_CASE("Filling a hole with corners keeps the keyframes playing") {
   cornered.keyframes[0].pose.corners[1].before = 0.3;
   REQUIRE(fits(cornered, cornered.keyframes[0].pose));
   const Deformation full = filled(cornered, {});
-  CHECK(full.rest.holes.empty());
+  CHECK(full.rest.starts.empty());
   CHECK(full.corners.size() == 3);
   const Pose& key = full.keyframes[0].pose;
   REQUIRE(fits(full, key));
-  CHECK(key.cage.holes.empty());
+  CHECK(key.cage.starts.empty());
   REQUIRE(key.corners.size() == 3);
   CHECK(key.corners[1].before == 0.3);
 }
@@ -141,13 +141,13 @@ TEST_CASE("Fill holes removes the selected holes, or all") {
   const Deformation both = desk.deformation();
   desk.workspace.selection = {{Handle::Kind::cage, 5, 0}};
   run("cage.fill", desk.workspace);
-  CHECK(desk.deformation().rest.holes == std::vector<Index>{4});
+  CHECK(desk.deformation().rest.starts == std::vector<Index>{4});
   CHECK(loop_of(desk.deformation().rest, 1) == loop_of(both.rest, 2));
   CHECK(fits(desk.deformation(), desk.deformation().keyframes[0].pose));
   run("edit.undo", desk.workspace);
   desk.workspace.selection.clear();
   run("cage.fill", desk.workspace);
-  CHECK(desk.deformation().rest.holes.empty());
+  CHECK(desk.deformation().rest.starts.empty());
   CHECK_FALSE(desk.workspace.actions.named("cage.fill").enabled(desk.workspace));
 }
 
