@@ -121,6 +121,7 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     painter_of(layer).update_map(workspace.maps.of(layer.id),
                                  &layer == &edited ? workspace.display.view : View::image,
                                  workspace.display.automatic_range);
+    if (painter_of(layer).is_settling()) wake_();
     drawn.push_back(&layer);
   }
   if (at.page_alone) drawn.clear();

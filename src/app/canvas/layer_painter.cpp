@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/clock.h"
 #include "system/memory.h"
 
 namespace holomorph {
@@ -91,7 +92,8 @@ void LayerPainter::update_fringe(const LiveMap& map, bool moved) {
         },
         wake_);
   }
-  if (fringe_ && moved) renderer_.set_fringe_positions(fringe_->positions(as_span(map.map().f)));
+  if (fringe_ && moved)
+    renderer_.set_fringe_positions(fringe_->positions(as_span(settling_.positions(map, now_ms()))));
 }
 
 void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_range) {
@@ -105,11 +107,14 @@ void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_ran
 
 void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_range) {
   const Uploaded wanted{&map, map.revision(), view, automatic_range};
-  const bool changed = uploaded_ != wanted;
+  const bool settles = settling_.moves(), changed = uploaded_ != wanted;
   if (uploaded_.map != &map) preparation_ = 0;  // maps count their preparations independently
-  if (changed) upload(map, view, automatic_range);
+  if (changed)
+    upload(map, view, automatic_range);
+  else if (settles)
+    renderer_.set_positions(as_span(settling_.positions(map, now_ms())));
   uploaded_ = wanted;
-  if (map.has_map()) update_fringe(map, changed);
+  if (map.has_map()) update_fringe(map, changed || settles);
 }
 
 void LayerPainter::upload(const LiveMap& map, View view, bool automatic_range) {
@@ -138,7 +143,7 @@ void LayerPainter::upload(const LiveMap& map, View view, bool automatic_range) {
   }
   if (by_operator_ && map.posed())
     renderer_.set_controls(map.prepared()->deformer->controls(pose_of(*map.posed())));
-  renderer_.set_positions(as_span(map.map().f));
+  renderer_.set_positions(as_span(settling_.positions(map, now_ms())));
   if (heat_values_.size() != map.map().f.size()) return;
   Eigen::VectorXf shades(heat_values_.size());
   for (Index i = 0; i < shades.size(); ++i)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 
+#include "edit/settling.h"
 #include "render/renderer.h"
 #include "scene/formats/image.h"
 #include "scene/fringe.h"
@@ -28,6 +29,8 @@ class LayerPainter {
   bool allocate_texture();
   /// Whether the next frame will show more of the picture.
   bool is_uploading() const { return uploading_; }
+  /// Whether the next frame will show the picture elsewhere.
+  bool is_settling() const { return settling_.moves(); }
   /// Uploads the current map if it has changed. On another thread, finds the faint surroundings of
   /// a cut-out. If `view` is a heat map, also computes its values.
   void update_map(const LiveMap& map, View view, bool automatic_range);
@@ -78,6 +81,7 @@ class LayerPainter {
   unsigned preparation_ = 0;  ///< whose mesh was uploaded; 0: none
   bool timed_ = false;        ///< the uploaded map is interpolated between keyframes
   bool by_operator_ = false;
+  Settling settling_;
 };
 
 }  // namespace holomorph

@@ -310,7 +310,7 @@ Polygon edge_of(const Workspace& workspace) {
   const LiveMap& map = workspace.map();
   if (!map.has_map()) return {};
   const Mesh& mesh = *map.prepared()->mesh;
-  Polygon edge{{}, mesh.holes};
+  Polygon edge{{}, mesh.starts};
   for (const int v : mesh.boundary) edge.points.push_back(map.map().f[v]);
   return edge;
 }
