@@ -39,9 +39,9 @@ class GoldenPictures(Case):
         marks = self.marks(scene, "--time", 1.3)
         self.compare("fern-between", scene, marks, "image", "--time", 1.3)
 
-    def test_samples_of_an_earlier_release_look_as_they_did(self):
-        """The golden pictures are those of that release. They are never drawn again."""
-        for name in ("giraffe", "gecko", "octopus"):
+    def test_samples_of_earlier_releases_look_as_they_did(self):
+        """The golden pictures are those of these releases. They are never drawn again."""
+        for name in ("giraffe", "gecko", "octopus", "harmonic-giraffe", "harmonic-gecko", "harmonic-octopus"):
             scene = old_sample(name)
             marks = self.marks(scene)
             for view in ("image", "area", "stretch"):

@@ -1,4 +1,4 @@
-# The samples of an earlier release, with methods and parameters as they were then.
+# The samples of earlier releases, with methods and parameters as they were then.
 import atexit
 import os
 import shutil
@@ -17,6 +17,6 @@ def old_sample(name):
         atexit.register(shutil.rmtree, FOLDER)
     path = os.path.join(FOLDER, name + ".json")
     if not os.path.exists(path):
-        shutil.copy(os.path.join(SOURCE, "assets", name + ".png"), FOLDER)
+        shutil.copy(os.path.join(SOURCE, "assets", name.removeprefix("harmonic-") + ".png"), FOLDER)
         shutil.copy(os.path.join(SOURCE, "tests/data/scenes", name + ".json"), path)
     return path
