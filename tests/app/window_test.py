@@ -333,9 +333,7 @@ class WindowTest(WindowCase):
             self.screenshot(editor, "compared")
 
     def test_methods_with_pins_are_compared(self):
-        for name in ("octopus.json", "octopus.png"):
-            shutil.copy(os.path.join(SOURCE, "assets", name), self.work)
-        with Editor([os.path.join(self.work, "octopus.json")]) as editor:
+        with Editor([old_sample("harmonic-octopus")]) as editor:
             self.compare_methods(editor, rows=5)
             self.screenshot(editor, "compared-pins")
 
