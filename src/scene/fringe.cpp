@@ -67,7 +67,7 @@ std::optional<Box> faint_box(PolygonView polygon, const Image& picture,
 }
 
 /// Adds the mesh inside a polygon to the fringe.
-void add_part(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygon& boundary) {
+void add_mesh(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygon& boundary) {
   const Mesh part = domain_mesh(inside, {kFringeVertices});
   const int base = static_cast<int>(fringe.mesh.vertices.size());
   const Loops loops = mesh.boundary_loops();
@@ -88,6 +88,40 @@ void add_part(Fringe& fringe, PolygonView inside, const Mesh& mesh, const Polygo
     for (int& corner : t) corner += base;
     fringe.mesh.triangles.push_back(t);
   }
+}
+
+/// The inside of a loop without the parts in it, whose outlines are nested this deep.
+Polygon surroundings(Points loop, PolygonView boundary, std::span<const int> around, int depth) {
+  Polygon result{std::move(loop)};
+  const Points outer = result.points;
+  for (Index l = 0; l < boundary.loops().count(); ++l) {
+    const auto outline = boundary.loop(l);
+    if (around[static_cast<size_t>(l)] != depth || winding_number(outer, outline[0]) == 0) continue;
+    result.starts.push_back(static_cast<Index>(result.points.size()));
+    result.points.insert(result.points.end(), outline.begin(), outline.end());
+  }
+  return result;
+}
+
+/// Removes the triangles between parts that may move apart.
+void remove_bridges(Fringe& fringe, const Mesh& mesh) {
+  std::vector<int> part(mesh.vertices.size(), -1);
+  const Loops loops = mesh.boundary_loops();
+  int current = -1;
+  for (Index l = 0; l < loops.count(); ++l) {
+    Points points;
+    for (Index i = loops.first(l); i < loops.end(l); ++i)
+      points.push_back(mesh.vertices[static_cast<size_t>(mesh.boundary[static_cast<size_t>(i)])]);
+    if (signed_area(points) > 0) ++current;  // an outline; its holes follow it
+    for (Index i = loops.first(l); i < loops.end(l); ++i)
+      part[static_cast<size_t>(mesh.boundary[static_cast<size_t>(i)])] = current;
+  }
+  const auto part_of = [&](int v) {
+    return part[static_cast<size_t>(fringe.followers[static_cast<size_t>(v)].a)];
+  };
+  std::erase_if(fringe.mesh.triangles, [&](const Triangle& t) {
+    return part_of(t[0]) != part_of(t[1]) || part_of(t[0]) != part_of(t[2]);
+  });
 }
 
 /// Whether a pixel with some alpha lies in the box of a triangle, or next to it.
@@ -162,12 +196,15 @@ std::shared_ptr<const Fringe> fringe_of(const Mesh& mesh, const Image& picture,
   auto fringe = std::make_shared<Fringe>();
   try {
     const PolygonView loops(boundary);
-    Polygon around{frame, {static_cast<Index>(frame.size())}};
-    const auto outline = loops.loop(0);
-    around.points.insert(around.points.end(), outline.begin(), outline.end());
-    add_part(*fringe, around, mesh, boundary);
-    for (Index hole = 1; hole < loops.loops().count() && keep_going(); ++hole)
-      add_part(*fringe, loops.loop(hole), mesh, boundary);
+    const std::vector<int> around = nesting_of(loops);
+    add_mesh(*fringe, surroundings(frame, loops, around, 0), mesh, boundary);
+    for (Index l = 0; l < loops.loops().count() && keep_going(); ++l)
+      if (const int depth = around[static_cast<size_t>(l)]; depth % 2 == 1) {
+        const auto hole = loops.loop(l);
+        add_mesh(*fringe, surroundings({hole.begin(), hole.end()}, loops, around, depth + 1), mesh,
+                 boundary);
+      }
+    remove_bridges(*fringe, mesh);
   } catch (const Error&) {
     return nullptr;  // such a boundary has no mesh around it
   }

@@ -112,4 +112,49 @@ TEST_CASE("fringe: holes of the cage have one, too") {
   CHECK_FALSE(locate(fringe->mesh, fringe->mesh.vertices, {60, 85}));
 }
 
+TEST_CASE("fringe: parts have their own, which moves with them alone") {
+  // A ring with a disk in it, and a disk beside them, all with halos.
+  const auto distance = [](Complex z) {
+    return std::min({std::abs(std::abs(z - Complex(50, 60)) - 30) - 8,
+                     std::abs(z - Complex(50, 60)) - 8, std::abs(z - Complex(140, 60)) - 25});
+  };
+  Image image(190, 120);
+  for (int row = 0; row < image.height; ++row)
+    for (int column = 0; column < image.width; ++column) {
+      const double d = distance(Complex(column + 0.5, image.height - row - 0.5));
+      image.at(column, row)[3] = static_cast<std::uint8_t>(
+          d < 0 ? 255 : std::lround(100 * std::clamp(1 - d / 6, 0.0, 1.0)));
+    }
+  const auto around = [](Complex at, double radius) {
+    Points polygon;
+    for (int i = 0; i < 24; ++i) polygon.push_back(at + std::polar(radius, 2 * kPi * i / 24));
+    return polygon_cage(polygon);
+  };
+  Cage cage = around({50, 60}, 39);
+  add_hole(cage, reversed(around({50, 60}, 21)).segments);
+  add_part(cage, around({50, 60}, 9));
+  add_part(cage, around({140, 60}, 26));
+  const Mesh mesh = domain_mesh(cage, {900});
+  const auto fringe = fringe_of(mesh, image);
+  REQUIRE(fringe);
+  int faint = 0, covered = 0;
+  for (int row = 0; row < image.height; ++row)
+    for (int column = 0; column < image.width; ++column) {
+      const Complex z(column + 0.5, image.height - row - 0.5);
+      if (image.at(column, row)[3] == 0 || contains(cage, z)) continue;
+      ++faint;
+      covered += locate(fringe->mesh, fringe->mesh.vertices, z).has_value();
+    }
+  CHECK(covered >= 0.97 * faint);
+  // One part moves away, and nothing is drawn out between it and the others.
+  const PartFinder finder(cage);
+  Points moved = mesh.vertices;
+  for (Complex& z : moved)
+    if (finder.at(z) == 2) z += 500.0;
+  const Points at = fringe->positions(moved);
+  for (const Triangle& t : fringe->mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      CHECK(std::abs(at[static_cast<size_t>(t[(k + 1) % 3])] - at[static_cast<size_t>(t[k])]) < 60);
+}
+
 }  // namespace holomorph::fringe_test
