@@ -127,12 +127,12 @@ enum class SheetScene { limbs, photograph };
 struct SheetFigures {
   double preparation_ms = 0, median_ms = 0, longest_ms = 0;
   double final_ms = 0;   ///< the pin released half way
-  double megabytes = 0;  ///< by which the process grew
+  double megabytes = 0;  ///< growth of the process's resident memory
   int unproved = 0;
 };
 SheetFigures sheet_drag(SheetScene scene);
 
-/// The memory of the process.
+/// The resident memory of the process, in megabytes.
 double resident_mb();
 
 /// Figures for a drag of 120 frames of a puppet with 10 pins and 10k mesh vertices, with proof and

@@ -240,8 +240,10 @@ void CommandLine::add_new(CLI::App& app) {
       "Distance of the cage from the content in pixels; by default chosen by --detail, and reduced "
       "to keep gaps between limbs open where possible");
   sub->add_flag("--curved", new_scene.curved, "Use cubic segments instead of straight edges");
-  sub->add_flag("--parts", new_scene.parts,
-                "Give each part of the picture an outline of its own, and choose the method sheet");
+  sub->add_flag(
+      "--parts", new_scene.parts,
+      "Give each part of the picture an outline of its own; if there are several, choose the "
+      "method sheet");
   sub->add_option("--cage", new_scene.cage,
                   "Read the cage from a file: the path \"rest\", or else the first path, of an SVG "
                   "file, or the boundary of the texture coordinates of an OBJ file");

@@ -34,6 +34,8 @@ Points far_points(const Mesh& mesh, std::span<const Complex> from, size_t most) 
   for (const Complex& z : from) held.push_back({nearest_vertex(mesh, z)});
   for (const int v : mesh.boundary) boundary.push_back({v});
   std::vector<double> distance = edges.from(held).distance;
+  for (double& away : distance)
+    if (!std::isfinite(away)) away = 0;  // other parts of the picture follow this one
   const std::vector<double> inside = edges.from(boundary).distance;
   Points far;
   double first = 0;

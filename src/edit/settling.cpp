@@ -1,7 +1,6 @@
 #include "edit/settling.h"
 
 #include "core/maps/distortion.h"
-#include "core/maps/method.h"
 
 namespace holomorph {
 namespace {
@@ -12,17 +11,12 @@ VectorXc blended(const VectorXc& from, const VectorXc& to, double u) {
   return from + u * u * (3 - 2 * u) * (to - from);
 }
 
-/// Drafts of methods that iterate have no proof of sizes; final maps that are proved do.
-bool is_draft(const LiveMap& map) {
-  return method_named(map.prepared()->method).iterates && !map.map().extremes;
-}
-
 }  // namespace
 
 bool Settling::fades_to(const LiveMap& map) const {
   constexpr double kVisible = 1e-3;  // of the size
   const VectorXc& f = map.map().f;
-  if (!was_draft_ || is_draft(map) || preparation_ != map.preparation() || map.timed() ||
+  if (!was_draft_ || map.shows_draft() || preparation_ != map.preparation() ||
       shown_.size() != f.size())
     return false;
   const Mesh& mesh = *map.prepared()->mesh;
@@ -35,12 +29,16 @@ bool Settling::fades_to(const LiveMap& map) const {
 
 const VectorXc& Settling::positions(const LiveMap& map, double now) {
   const VectorXc& f = map.map().f;
+  if (!map.has_map()) {
+    *this = {};
+    return f;
+  }
   if (revision_ != map.revision() || preparation_ != map.preparation()) {
     if (fades_to(map))
       from_ = shown_, start_ = now;
     else
       from_.resize(0);
-    was_draft_ = is_draft(map);
+    was_draft_ = map.shows_draft();
     revision_ = map.revision();
     preparation_ = map.preparation();
   }

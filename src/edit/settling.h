@@ -11,7 +11,7 @@ class Settling {
  public:
   /// The positions of the mesh's vertices to show at a time in milliseconds.
   const VectorXc& positions(const LiveMap& map, double now);
-  /// Whether positions() will return something else a moment later, for the same map.
+  /// Whether a fade is in progress.
   bool moves() const { return from_.size() > 0; }
 
  private:

@@ -26,6 +26,7 @@
 #include "scene/budget.h"
 #include "scene/check_scene.h"
 #include "scene/formats/scene_json.h"
+#include "scene/joined_cage.h"
 #include "scene/keyframes.h"
 #include "scene/loading.h"
 #include "scene/report.h"
@@ -524,6 +525,8 @@ void add_content(py::class_<PythonScene>& scene) {
                   known == deformation.other_parameters.end() ? Parameters() : known->second;
               deformation.other_parameters.erase(id);
               deformation.method = id;
+              if (!method_named(id).allows_parts)
+                deformation = with_joined_parts(std::move(deformation));
             });
           },
           "The id of the method that makes the map; see methods().")
@@ -545,13 +548,15 @@ void add_handles(py::class_<PythonScene>& scene) {
             const Cage cage = cage_of(points, holes, degree, parts);
             self.edit([&](Deformation& deformation) {
               deformation = with_cage(std::move(deformation), cage);
+              if (!cage.parts.empty() && !method_named(deformation.method).allows_parts)
+                deformation.method = usual_method(MethodUse::puppet).id;
             });
           },
           py::arg("points"), py::arg("degree") = 1, py::arg("holes") = py::list(),
           py::arg("parts") = py::list(),
           "Draws a new cage at rest. Segments of a degree above 1 are Bezier curves: each begins "
           "with a vertex, and degree - 1 control points follow. `parts` are further outlines of "
-          "the picture, for the method 'sheet'.")
+          "the picture; with them, the method becomes 'sheet' if it needs one outline.")
       .def_property_readonly(
           "cage",
           [](const PythonScene& self) { return vector_array(controls(self.deformation().rest)); },

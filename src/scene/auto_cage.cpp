@@ -118,22 +118,23 @@ class Band {
 
   /// The curve on which the cage's vertices lie.
   Points middle() const { return curve_at(middle_); }
-  /// The level curve of the distance, but not across the middle of a gap.
-  Points curve_at(double level) const {
-    constexpr double kMiddle = 0.7;  // of the way to the middle of a gap
+  /// The level curve of the distance, but no farther than this part of the way to the middle of a
+  /// gap.
+  Points curve_at(double level, double part_of_gap = 0.7) const {
     Grid<float> field = part_.distance;
     for (size_t i = 0; i < field.cells.size(); ++i) {
       const double own = field.cells[i],
                    to_gap = std::min<double>(to_gaps_ ? to_gaps_->cells[i] : HUGE_VAL,
                                              to_middle(own, part_.to_rivals.cells[i]));
-      field.cells[i] =
-          std::max(field.cells[i], static_cast<float>(level / kMiddle * part_of_way(own, to_gap)));
+      field.cells[i] = std::max(field.cells[i],
+                                static_cast<float>(level / part_of_gap * part_of_way(own, to_gap)));
     }
     return level_curve(field, level);
   }
   /// The same in an enclosed region that is at least kLeastHole deep.
   Points middle_in(const EnclosedRegion& region) const {
-    return region.curve(std::min(middle_, 0.5 * (kEnclosing + region.deepest)));
+    const double to_rival = 0.6 * (middle_to_rival(region) - kEnclosing) + kEnclosing;
+    return region.curve(std::min({middle_, 0.5 * (kEnclosing + region.deepest), to_rival}));
   }
   /// A curve that encloses the part and lies inside the band.
   Points inner() const { return level_curve(part_.distance, kEnclosing); }
@@ -160,6 +161,17 @@ class Band {
   /// How far a point is on the way from the part to the middle of a gap. Gaps of one or two cells
   /// are ignored, because they have no room for two edges of the cage.
   static double part_of_way(double d, double to_gap) { return d > kTurning ? d / (d + to_gap) : 0; }
+  /// The distance from this part to where another part in the region is just as near.
+  double middle_to_rival(const EnclosedRegion& region) const {
+    double least = HUGE_VAL;
+    for (int r = 0; r < region.depth.height; ++r)
+      for (int c = 0; c < region.depth.width; ++c) {
+        const double own = region.depth(c, r),
+                     rival = part_.to_rivals(region.column + c, region.row + r);
+        if (own > 0 && rival <= own) least = std::min(least, 0.5 * (own + rival));
+      }
+    return least;
+  }
   /// The distance to the middle between this part and another one.
   static double to_middle(double own, double to_rival) {
     return std::max(0.0, 0.5 * (to_rival - own));
@@ -297,7 +309,7 @@ Cage cage_around(const PartGrid& part, const AutoCageOptions& options, double re
     const double kept = std::max(kEnclosing, kEdge + 0.45 * margin),
                  outer = std::max(kept + 0.5, kEdge + margin);
     cage = curves_around(thinned(in_picture(band.curve_at(outer))),
-                         thinned(in_picture(level_curve(part.distance, kept))), vertices);
+                         thinned(in_picture(band.curve_at(kept, 0.6))), vertices);
   } else if (options.vertices) {
     band.narrow();
     const Points polygon = polygon_in(band, band.middle());

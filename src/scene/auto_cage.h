@@ -23,9 +23,9 @@ struct AutoCageOptions {
 /// them, the parts are joined. Without a given margin, it follows the content at about 0.5 % of its
 /// size (a quarter or four times as much at the ends of `detail`), but no farther than a third of
 /// the narrowest gap between limbs, and at least 0.5 px. Limbs that are 3 px apart thus stay apart,
-/// unless that takes more than 500 vertices. Curved cages stay farther away and may join limbs.
-/// With given vertices, the cage has about that many, or more if fewer would cut into the content;
-/// gaps may then be closed.
+/// unless that takes more than 500 vertices, or with many parts 4,500 in all. Curved cages stay
+/// farther away and may join limbs. With given vertices, the cage has about that many, or more if
+/// fewer would cut into the content; gaps may then be closed.
 ///
 /// Empty regions inside the content become holes if a circle with a diameter of `hole_width`
 /// percent of the content's size fits into them and no other content lies in them; up to 100 holes,

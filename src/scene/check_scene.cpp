@@ -80,6 +80,8 @@ void check_handles(const Deformation& deformation) {
   check_cage("the posed cage", deformation.pose);
   check_same_loops(deformation.rest, deformation.pose);
   if (deformation.has_cage()) check_rest_cage(deformation.rest);
+  if (!deformation.rest.parts.empty() && !method_named(deformation.method).allows_parts)
+    fail("method '" + deformation.method + "' needs one outline around all parts of the cage");
   check_count("pins", deformation.pins.size(), kMaxPins);
   for (size_t i = 0; i < deformation.pins.size(); ++i) {
     const Pin& pin = deformation.pins[i];

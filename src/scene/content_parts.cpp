@@ -90,7 +90,7 @@ std::vector<Box> parts_outside(const Image& image, const Cage& cage) {
   if (is_opaque(image)) return {};
   const MaskParts parts = parts_of_mask(content_of(image));
   std::vector<Box> boxes(parts.sizes.size());
-  std::vector<size_t> inside(parts.sizes.size(), 0), looked_at = inside;
+  std::vector<size_t> inside(parts.sizes.size(), 0), looked_at = inside, seen = inside;
   const Polygon outline = outline_of(cage);
   for (int r = 0; r < image.height; ++r)
     for (int c = 0; c < image.width; ++c) {
@@ -101,7 +101,7 @@ std::vector<Box> parts_outside(const Image& image, const Cage& cage) {
       boxes[part].include(Complex(c, top - 1));
       boxes[part].include(Complex(c + 1, top));
       constexpr size_t kMost = 100;  // pixels of a part that are looked at
-      if (static_cast<size_t>(c + r) % (1 + parts.sizes[part] / kMost) != 0) continue;
+      if (seen[part]++ % (1 + parts.sizes[part] / kMost) != 0) continue;
       ++looked_at[part];
       inside[part] += encloses(outline, Complex(c + 0.5, top - 0.5));
     }

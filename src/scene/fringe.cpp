@@ -1,5 +1,5 @@
-// The outside is meshed like a cage: its outer loop is a box, and its hole is the cut-out. Each
-// hole of the cut-out is one more mesh.
+// The outside is meshed like a cage: its outline is a box, and its holes are the parts of the
+// cut-out. Each hole of the cut-out is one more mesh, without the parts in it.
 #include "scene/fringe.h"
 
 #include <algorithm>

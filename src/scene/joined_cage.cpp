@@ -36,7 +36,7 @@ void fill(PolygonView polygon, Image& image) {
 
 Cage joined_cage(const Cage& cage) {
   if (cage.parts.empty()) return cage;
-  constexpr double kPixels = 1000;  // on the longer side
+  constexpr double kPixels = 600;  // on the longer side
   Polygon outline = outline_of(cage);
   const Box box = box_of(outline.points);
   const double scale = kPixels / std::max(box.width(), box.height());

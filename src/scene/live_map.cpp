@@ -138,6 +138,10 @@ bool LiveMap::pose(const Deformation& deformation, EvalOptions options) {
   return true;
 }
 
+bool LiveMap::shows_draft() const {
+  return prepared_ && !timed_ && posed_.options.draft && method_named(prepared_->method).iterates;
+}
+
 bool LiveMap::pose_at_time(const Deformation& deformation, EvalOptions options) {
   if (posed_.deformation == deformation && posed_.options == options && posed_moment_ == moment_)
     return false;

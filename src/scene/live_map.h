@@ -37,6 +37,8 @@ class LiveMap {
   /// The map at the mesh's vertices; empty until the first map is ready.
   const SampledMap& map() const { return posed_.map; }
   bool has_map() const { return prepared_ && posed_.map.f.size() > 0; }
+  /// Whether the displayed map is the draft of a method that iterates.
+  bool shows_draft() const;
   /// Whether a better map than the displayed one is being prepared or solved.
   bool busy() const { return busy_; }
   const std::optional<Error>& error() const { return error_; }

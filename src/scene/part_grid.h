@@ -25,7 +25,7 @@ struct PartGrid {
 };
 
 /// Which content is taken: the largest connected part (8-neighbors); all parts that can be seen,
-/// joined to one by filling the gaps between them; or each of them.
+/// joined to one by filling and bridging the gaps between them; or each of them.
 enum class PartChoice { largest, joined, apart };
 
 /// Parts with less than this share of the picture's pixels cannot be seen.

@@ -673,7 +673,7 @@ class CommandLine(Case):
             self.assertEqual(len(scene["cage"].get("parts", [])), parts)
             moved = self.path(f"{method}.csv")
             open(moved, "w").write("100,20\n225,100\n")
-            self.good("map", out, "--points", moved)
+            self.assertNotIn("nan", self.good("map", out, "--points", moved).stdout)
         # Pins move their part, and what is exported shows it.
         scene["pins"] = [{"rest": [220, 95], "pose": [200, 40]}, {"rest": [230, 105], "pose": [210, 50]},
                          {"rest": [100, 180]}, {"rest": [20, 100]}]

@@ -50,6 +50,12 @@ TEST_CASE("Far points are in the arms that have no pin, inside of the picture") 
     }
     CHECK(held.size() == static_cast<size_t>(count - 1));
     CHECK_FALSE(held.contains(first % count));
+    // Another part of the picture follows, and needs no pin.
+    Cage two = polygon_cage(polygon);
+    add_part(two, polygon_cage(Points{{400, 0}, {600, 0}, {600, 200}, {400, 200}}));
+    const Points again = far_points(domain_mesh(two, {2000}), std::vector{pin});
+    CHECK(again.size() >= static_cast<size_t>(count - 1));
+    for (const Complex& z : again) CHECK(std::abs(z) < 310);
   }
 }
 

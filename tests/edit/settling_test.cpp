@@ -49,6 +49,21 @@ TEST_CASE("Settling: a final map that is elsewhere is reached in 150 ms") {
   CHECK_FALSE(settling.moves());
 }
 
+TEST_CASE("Settling: a fade ends when the map does") {
+  Deformation deformation = bar();
+  LiveMap map(MeshOptions{600});
+  Settling settling;
+  map.finish(deformation, {.draft = true});
+  settling.positions(map, 0);
+  deformation.pins[2].pose = {520, 130};
+  map.finish(deformation, {});
+  settling.positions(map, 10);
+  REQUIRE(settling.moves());
+  map.clear();
+  CHECK(settling.positions(map, 20).size() == 0);
+  CHECK_FALSE(settling.moves());
+}
+
 TEST_CASE("Settling: small differences, and drafts, are shown at once") {
   Deformation deformation = bar();
   LiveMap map(MeshOptions{600});

@@ -96,12 +96,42 @@ TEST_CASE("Parts: each one that can be seen has an outline, and joined they have
       CHECK(parts_outside(image, joined).empty());
       // A cage around one part leaves the others out.
       CHECK(parts_outside(image, part_of(apart, 0)).size() == visible - 1);
-      // The meshes fit, and all methods can use the outline around all parts.
+      // The meshes fit.
       if (curved) continue;
       const Mesh mesh = solving_mesh(apart);
       CHECK(mesh.boundary_loops().count() == apart.loops().count());
       CHECK(parts_of(mesh, apart).size() == static_cast<size_t>(visible));
     }
+}
+
+TEST_CASE("Parts: wide gaps between small parts are bridged, however wide they are") {
+  for (const int side : {24, 60}) {
+    Image image(900, 900);
+    for (int r = 0; r < side; ++r)
+      for (int c = 0; c < side; ++c)
+        for (const int k : {0, 1, 2}) {
+          const int column = k == 1 ? 899 - c : c, row = k == 2 ? 899 - r : r;
+          image.at(column, k == 1 ? 450 + r : row)[3] = 255;
+        }
+    const Cage joined = auto_cage(image);
+    CHECK(joined.part_count() == 1);
+    CHECK(!rest_fault(joined));
+    CHECK(parts_outside(image, joined).empty());
+  }
+}
+
+TEST_CASE("Parts: a disk in a ring is a part, even if the gap is narrow") {
+  for (const double gap : {5.0, 6.0, 12.0, 40.0}) {
+    const Image image =
+        picture_of(500, 420, {{{200, 200}, 150, 1}, {{200, 200}, 90 - gap, 0}, {{440, 60}, 40, 2}});
+    for (const bool curved : {false, true}) {
+      CAPTURE(gap, curved);
+      const Cage cage = auto_cage(image, {.curved = curved, .parts = PartChoice::apart});
+      CHECK(!rest_fault(cage));
+      CHECK(cage.part_count() == 3);
+      CHECK(part_of(cage, 0).has_holes());
+    }
+  }
 }
 
 TEST_CASE("Parts: specks are left out, and pieces that nearly touch are one part") {
@@ -117,6 +147,9 @@ TEST_CASE("Parts: specks are left out, and pieces that nearly touch are one part
     CAPTURE(gap);
     CHECK(!rest_fault(cage));
     CHECK(cage.part_count() == (gap < 3 ? 1 : 2));
+    // Nothing is left out, apart or together.
+    for (const PartChoice choice : {PartChoice::apart, PartChoice::joined})
+      CHECK(parts_outside(cut, auto_cage(cut, {.parts = choice})).empty());
   }
   CHECK(auto_cage(image, {.parts = PartChoice::largest}).part_count() == 1);
   // Files have room for a hundred parts.
@@ -158,6 +191,11 @@ TEST_CASE("Parts: drawings have a subpath for each loop, and are read back") {
   const Deformation deformation = scene_with_parts().deformation();
   const std::string svg = svg_of(deformation, {});
   CHECK(cage_of_svg(svg, "a.svg", 0, PathUse::rest) == deformation.rest);
+  const Cage lone =
+      cage_of_svg("<svg><path d='M0 0 M10 10h50v50h-50z M20 20h10v10h-10z M80 10h9v9h-9z'/></svg>",
+                  "b.svg", 99);
+  CHECK(lone.part_count() == 2);
+  CHECK(part_of(lone, 0).has_holes());
   Deformation posed = deformation;
   posed.pose.segments[0][0] += 1.0;
   const Cage pose = cage_of_svg(svg_of(posed, {}), "a.svg", 0, PathUse::pose, &posed.rest);

@@ -108,7 +108,10 @@ void LayerPainter::update_heat(const LiveMap& map, View view, bool automatic_ran
 void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_range) {
   const Uploaded wanted{&map, map.revision(), view, automatic_range};
   const bool settles = settling_.moves(), changed = uploaded_ != wanted;
-  if (uploaded_.map != &map) preparation_ = 0;  // maps count their preparations independently
+  if (uploaded_.map != &map) {  // maps count their preparations independently
+    preparation_ = 0;
+    settling_ = {};
+  }
   if (changed)
     upload(map, view, automatic_range);
   else if (settles)
@@ -120,6 +123,7 @@ void LayerPainter::update_map(const LiveMap& map, View view, bool automatic_rang
 void LayerPainter::upload(const LiveMap& map, View view, bool automatic_range) {
   update_heat(map, view, automatic_range);
   if (!map.has_map()) {
+    settling_ = {};
     renderer_.set_mesh(nullptr);
     preparation_ = 0;
     fringed_ = {};

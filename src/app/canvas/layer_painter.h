@@ -29,7 +29,7 @@ class LayerPainter {
   bool allocate_texture();
   /// Whether the next frame will show more of the picture.
   bool is_uploading() const { return uploading_; }
-  /// Whether the next frame will show the picture elsewhere.
+  /// Whether the picture is fading to its final map.
   bool is_settling() const { return settling_.moves(); }
   /// Uploads the current map if it has changed. On another thread, finds the faint surroundings of
   /// a cut-out. If `view` is a heat map, also computes its values.

@@ -46,6 +46,7 @@ void add_method_rows(Workspace& workspace, std::vector<Row>& rows) {
         [preset](Deformation& after) { after = with_preset(std::move(after), preset); });
   }
   for (const ParameterSpec& spec : method.parameters) {
+    if (spec.needs_parts && deformation.rest.parts.empty()) continue;
     std::vector<std::string> names;
     if (spec.type == ParameterSpec::Type::toggle) names = {"off", "on"};
     if (spec.type == ParameterSpec::Type::choice)

@@ -9,7 +9,7 @@
 namespace holomorph {
 
 /// Closed polylines in a single list, of which none cross: an outline, and then its holes, for each
-/// part. Inside is what an odd number of them goes around. Value type.
+/// part. A point is inside if an odd number of loops go around it. Value type.
 struct Polygon {
   Points points;
   std::vector<Index> starts = {};  ///< of the loops after the first one

@@ -109,10 +109,15 @@ Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
     fzbar /= 4 * areas_[triangle];
     const double square = std::norm(fz);
     double angle = square == 0 ? 0 : std::arg(fz);
-    if (from >= 0) {
-      const double near = shape.logarithm[from].imag();
-      angle += 2 * kPi * std::round((near - angle) / (2 * kPi));
-    }
+    // Each part turns by less than half a turn more or less than the first one.
+    const int first = order_[0].triangle;
+    std::optional<double> near;
+    if (from >= 0)
+      near = shape.logarithm[from].imag();
+    else if (before && triangle != first)
+      near =
+          (before->logarithm[triangle] + shape.logarithm[first] - before->logarithm[first]).imag();
+    if (near) angle += 2 * kPi * std::round((*near - angle) / (2 * kPi));
     const bool vanishes = square < kLeast * kLeast;
     shape.logarithm[triangle] = {vanishes ? std::log(kLeast) : 0.5 * std::log(square), angle};
     shape.nu[triangle] =

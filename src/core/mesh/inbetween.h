@@ -37,7 +37,7 @@ class Inbetween {
   /// A map at the mesh's vertices, and its decomposition.
   struct Shape {
     VectorXc f;
-    VectorXc logarithm;  ///< ln f_z in each triangle, continuous
+    VectorXc logarithm;  ///< ln f_z in each triangle, continuous in each part
     VectorXc nu;
     int turns = 0;  ///< whole turns added to the first triangle's angle in [-pi, pi]
   };

@@ -66,7 +66,7 @@ class PartsMotion final : public ProvedMotion {
   std::optional<KeyOfPart> key(size_t p, const MotionKey* whole) const {
     if (!whole) return {};
     const auto* found = dynamic_cast<const SheetSolutions*>(whole->solution.get());
-    if (!found || found->parts.size() != motions_.size()) return {};
+    if (!found || found->parts.size() != motions_.size() || !found->parts[p]) return {};
     KeyOfPart own{*whole, sheets_->division.pose_of(p, *whole->pose)};
     own.key.solution = found->parts[p];
     const std::vector<double>& turns = found->parts[p]->state.turns;

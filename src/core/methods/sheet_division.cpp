@@ -1,6 +1,7 @@
 #include "core/methods/sheet_division.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/maps/acting_pins.h"
@@ -23,6 +24,13 @@ NearestPoint nearest_between(PolygonView outline, PolygonView other) {
   }
   for (const Complex& z : outline.points()) offer(z, nearest_on_polygon(other, z).distance);
   return best;
+}
+
+/// The distance between boxes; 0 if they overlap.
+double distance_between(const Box& a, const Box& b) {
+  const double x = std::max({0.0, a.left - b.right, b.left - a.right}),
+               y = std::max({0.0, a.bottom - b.top, b.bottom - a.top});
+  return std::hypot(x, y);
 }
 
 }  // namespace
@@ -105,8 +113,11 @@ void SheetDivision::find_leaders() {
   std::vector<Link> links(parts_.size());  // from each loose part to the nearest known one
   const auto offer = [&](size_t to) {
     for (const size_t p : loose) {
-      const NearestPoint nearest = nearest_between(finder_.outline(static_cast<Index>(to)),
-                                                   finder_.outline(static_cast<Index>(p)));
+      const FlatCage &known_outline = finder_.outline(static_cast<Index>(to)),
+                     &own = finder_.outline(static_cast<Index>(p));
+      if (distance_between(box_of(known_outline), box_of(own)) >= links[p].nearest.distance)
+        continue;
+      const NearestPoint nearest = nearest_between(known_outline, own);
       if (nearest.distance < links[p].nearest.distance) links[p] = {to, nearest};
     }
   };

@@ -8,10 +8,10 @@
 
 namespace holomorph {
 
-/// What each part of the cage takes of a rest and of its poses. Parts in which no pin and no stroke
-/// acts are loose, unless there are no such handles anywhere. A loose part moves like the point of
-/// a part with handles that is nearest to it, its anchor, or like another loose part that is
-/// nearer. Immutable.
+/// Gives each part of the cage its share of a rest and of its poses. Parts in which no pin and no
+/// stroke acts are loose, unless there are no such handles anywhere. A loose part moves like the
+/// point of a part with handles that is nearest to it, its anchor, or like another loose part that
+/// is nearer. Immutable.
 class SheetDivision {
  public:
   struct Part {
@@ -31,7 +31,7 @@ class SheetDivision {
   SheetDivision(const Rest& rest, const SheetDivision* previous);
 
   const std::vector<Part>& parts() const { return parts_; }
-  /// Which pins and strokes have no effect; the parts' own notes are right if there is only one.
+  /// Which pins and strokes have no effect; empty if there is one part, which has its own note.
   const std::string& note() const { return note_; }
   Pose pose_of(size_t part, const Pose& pose) const;
   size_t part_at(Complex z) const { return static_cast<size_t>(finder_.at(z)); }

@@ -61,9 +61,8 @@ Complex center_of(const Deformation& deformation, const Selection& selection, Ed
 /// whose poses fit the deformation (see fits()). The curves keep their shapes.
 Deformation inserted(Deformation deformation, Index segment, double t);
 
-/// Deletes handles: vertices, pins and strokes. A hole of which fewer than three vertices would
-/// remain is deleted as a whole. Throws Error if fewer than three vertices of the outer loop would
-/// remain.
+/// Deletes handles: vertices, pins and strokes. A hole or a part of which fewer than three vertices
+/// would remain is deleted as a whole. Throws Error if no part would remain.
 Deformation erased(Deformation deformation, const Selection& selection, Refit refit = Refit::curve);
 
 /// Adds a pin. If the method does not use pins, switches to one that does. `in_keyframes` contains

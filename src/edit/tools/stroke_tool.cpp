@@ -103,18 +103,17 @@ class StrokeTool final : public HandleTool {
     }
     Points rest, pose;
     for (const Complex& z : drawn) {
-      auto at = rest_at(workspace, z);
-      // A stroke over several parts bends them together, over an outline around them.
-      if (!at && workspace.at_rest() && !workspace.shown.deformation().rest.parts.empty()) at = z;
+      const auto at = rest_at(workspace, z);
       if (!at) continue;
       rest.push_back(*at);
-      pose.push_back(workspace.at_rest() && rest_at(workspace, z) ? posed_at(workspace.map(), *at)
-                                                                  : z);
+      pose.push_back(workspace.at_rest() ? posed_at(workspace.map(), *at) : z);
     }
     if (rest.size() < 2)
       return workspace.messages.say("Draw the stroke on the picture, inside the cage.");
     if (!workspace.require_keyframe_maps()) return;
-    const bool clipped = rest.size() < drawn.size();
+    // A stroke over several parts crosses the gaps between them.
+    const bool clipped =
+        rest.size() < drawn.size() && workspace.shown.deformation().rest.parts.empty();
     const bool switches = !method_named(workspace.shown.deformation().method).uses_strokes;
     if (!workspace.commit("Draw stroke", with_stroke(workspace.shown.deformation(), rest, pose,
                                                      workspace.keyframe_images(rest))))

@@ -67,6 +67,8 @@ void read_cage(const Reader& reader, Deformation& deformation) {
   check_sizes(reader, deformation.rest, deformation.pose);
   if (reader.has("holes")) read_holes(reader["holes"], deformation);
   if (reader.has("parts")) read_parts(reader["parts"], deformation);
+  if (deformation.rest.starts.size() - deformation.rest.parts.size() > kMaxHoles)
+    reader.fail("more than " + std::to_string(kMaxHoles) + " holes in all parts");
   if (std::ranges::all_of(deformation.loop_extras, &Extra::empty)) deformation.loop_extras.clear();
   if (deformation.rest.segments.size() > kMaxSegments)
     reader.fail("more than " + std::to_string(kMaxSegments) + " segments in all loops");

@@ -76,6 +76,10 @@ Pose read_pose(const Reader& reader, const Deformation& deformation) {
                               ? read_posed_part(reader["parts"][i].object(), at_rest)
                               : at_rest);
     }
+    if (pose.cage.segments.size() > kMaxSegments ||
+        pose.cage.starts.size() - pose.cage.parts.size() > kMaxHoles)
+      reader.fail("more than " + std::to_string(kMaxSegments) + " segments or " +
+                  std::to_string(kMaxHoles) + " holes in all parts");
   }
   if (reader.has("pins")) pose.pins = read_list(reader["pins"], kMaxPins, read_pose_pin);
   if (reader.has("strokes"))

@@ -110,6 +110,8 @@ Cage cage_like(const Cage& other, const std::vector<std::vector<Points>>& loops)
 /// A cage of loops in any order. If all but one lie inside that one, they are its holes. Loops that
 /// touch or cross are holes of the largest one, so that the cage is refused with a reason.
 Cage nested_cage(std::vector<std::vector<Points>> loops) {
+  std::erase_if(loops, [](const std::vector<Points>& loop) { return loop.empty(); });
+  if (loops.empty()) return {};
   const auto area = [](const std::vector<Points>& loop) {
     return std::abs(signed_area(outline_of(Cage{loop})));
   };
@@ -165,9 +167,11 @@ Cage cage_of_svg(const std::string& text, const std::string& name, double height
   if (use == PathUse::outline && loops.size() > 1)
     throw Error(ErrorKind::bad_input,
                 name + ": the path has several subpaths; an outline is one closed loop");
-  if (loops.size() > kMaxHoles + 1)
+  constexpr size_t kMost = kMaxHoles + kMaxParts;
+  if (loops.size() > kMost)
     throw Error(ErrorKind::bad_input, name + ": the path has " + std::to_string(loops.size()) +
-                                          " subpaths; at most 101 are allowed");
+                                          " subpaths; at most " + std::to_string(kMost) +
+                                          " are allowed");
   for (auto& loop : loops)
     for (Points& segment : loop)
       for (Complex& z : segment) z = {z.real(), height - z.imag()};

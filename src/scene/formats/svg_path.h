@@ -17,8 +17,8 @@ enum class PathUse { rest, pose, outline };
 /// height of the picture; if it is not positive, the drawing's height is used. Reads the path with
 /// the id "rest", "pose" or "outline", or the first path if there is none. Arcs become cubics. Each
 /// subpath must be closed, or it is closed with a line. Subpaths inside others become their holes,
-/// and those beside others, or in their holes, become parts; an outline has a single subpath. A
-/// pose takes the subpaths in the order of the loops of its `rest`, if they are as many. Throws
+/// and those next to others, or in their holes, become parts; an outline has a single subpath. In a
+/// pose, the subpaths are the loops of `rest` in order, if it has the same number. Throws
 /// Error{bad_input} with the reason and the position if the file has no path, or if the path has
 /// transforms or damaged numbers.
 Cage cage_of_svg(const std::string& text, const std::string& name, double height,

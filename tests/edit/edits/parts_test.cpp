@@ -29,6 +29,7 @@ TEST_CASE("Parts: other methods get one outline around them, posed as they were"
     for (Index e = 0; e < key.size(); ++e)
       farthest = std::max(farthest, std::abs(key.vertex(e) - after.rest.vertex(e)));
     CHECK(farthest <= 5 + 1e-9);
+    CHECK(farthest > 0);
     CHECK(prepared_map(after, Precision::single, {500})->mesh->vertices.size() > 100);
   }
 }
@@ -44,6 +45,18 @@ TEST_CASE("Parts: holes are added to the part around them") {
   CHECK(playing_keys(more).size() == 2);
   CHECK(filled(more, {}).rest.has_holes() == false);
   CHECK(without_hole(more, loops_of_part(more.rest, bar).end - 1).rest == deformation.rest);
+}
+
+TEST_CASE("Parts: close parts stay together in one outline, with their pins") {
+  // Two squares with a gap of four pixels in a picture of 1,000 pixels.
+  Deformation deformation = with_cage({}, Points{{0, 0}, {498, 0}, {498, 400}, {0, 400}});
+  add_part(deformation.rest, polygon_cage(Points{{502, 0}, {1000, 0}, {1000, 400}, {502, 400}}));
+  deformation.pose = deformation.rest;
+  deformation.method = "sheet";
+  for (const double x : {250.0, 750.0}) deformation.pins.push_back({{x, 200}, {x, 200}, {}, {}});
+  const Deformation after = with_method(deformation, "pins");
+  CHECK(after.rest.part_count() == 1);
+  for (const Pin& pin : after.pins) CHECK(contains(after.rest, pin.rest));
 }
 
 TEST_CASE("Parts: deleting all points of one deletes it, but not the last one") {
