@@ -69,12 +69,25 @@ void add_bridge(Mask& mask, int half_width) {
   Mask own(mask.width, mask.height, 0);
   for (size_t i = 0; i < own.cells.size(); ++i) own.cells[i] = parts.label.cells[i] == 0;
   const Grid<float> distance = distance_field(own);
-  Complex to = 0;
+  // Among cells that are about as near, the one in their middle.
+  const auto for_others = [&](const auto& visit) {
+    for (int r = 0; r < mask.height; ++r)
+      for (int c = 0; c < mask.width; ++c)
+        if (mask(c, r) && !own(c, r)) visit(Complex(c, r), distance(c, r));
+  };
   float least = HUGE_VALF;
-  for (int r = 0; r < mask.height; ++r)
-    for (int c = 0; c < mask.width; ++c)
-      if (mask(c, r) && !own(c, r) && distance(c, r) < least)
-        least = distance(c, r), to = Complex(c, r);
+  for_others([&](Complex, float away) { least = std::min(least, away); });
+  Complex sum = 0;
+  double count = 0;
+  for_others([&](Complex z, float away) {
+    if (away <= least + 1) sum += z, ++count;
+  });
+  Complex to = 0;
+  double off = HUGE_VAL;
+  for_others([&](Complex z, float away) {
+    if (away <= least + 1 && std::abs(z - sum / count) < off)
+      off = std::abs(z - sum / count), to = z;
+  });
   Complex from = to;
   double shortest = HUGE_VAL;
   for (int r = 0; r < mask.height; ++r)
@@ -91,16 +104,16 @@ Mask joined(const Mask& mask) {
   const auto is_one = [](const Mask& m) { return parts_of_mask(m).sizes.size() == 1; };
   if (is_one(mask)) return mask;
   const int longer = std::max(mask.width, mask.height);
-  const double widest = std::max(2.0, longer / 16.0);
+  const double widest = std::max(2.0, longer / 6.0);
   double apart = 0, together = 2;
   Mask filled = closed(mask, together);
-  while (!is_one(filled) && 2 * together <= widest) {
+  while (!is_one(filled) && together < widest) {
     apart = together;
-    together *= 2;
+    together = std::min(2 * together, widest);
     filled = closed(mask, together);
   }
   if (!is_one(filled)) {
-    const int half_width = 2 + longer / 100;
+    const int half_width = 2 + longer / 40;
     while (!is_one(filled)) add_bridge(filled, half_width);
     return filled;
   }

@@ -298,6 +298,19 @@ class Editing(Folder):
         self.assertTrue(np.isnan(scene.map([15 + 15j])[0]))
         np.testing.assert_allclose(scene.map([5 + 5j]), [5 + 5j], atol=1e-9)
 
+    def test_parts_move_alone_until_another_method_joins_them(self):
+        square = np.array([0, 30, 30 + 30j, 30j])
+        scene = holomorph.Scene()
+        scene.set_cage(square, parts=[square + 50], holes=[65 + 15j + 4 * np.exp(-2j * np.pi * np.arange(6) / 6)])
+        self.assertEqual(scene.method, "sheet")
+        self.assertEqual(len(scene.cage), 14)
+        scene.pins = [holomorph.Pin(at, at + shift) for at, shift in
+                      ((5 + 5j, 0), (25 + 5j, 0), (55 + 5j, 10j), (75 + 5j, 10j))]
+        np.testing.assert_allclose(scene.map([10 + 10j, 60 + 25j]), [10 + 10j, 60 + 35j], atol=0.1)
+        self.assertTrue(np.isnan(scene.map([65 + 15j])[0]))
+        scene.method = "pins"
+        self.assertFalse(np.isnan(scene.map([40 + 15j])[0]))
+
     def test_mistakes_are_explained_and_change_nothing(self):
         scene = self.scene()
         before = scene.cage
