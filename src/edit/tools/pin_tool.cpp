@@ -63,8 +63,10 @@ class PinTool final : public HandleTool {
     if (circle_.active() || on_circle())
       return "Drag the circle to choose how much of the picture may move";
     if (can_hold_rest(workspace) && !drag_.active())
-      return "One pin moves the whole picture. Click parts that should stay, or press 'Hold the "
-             "rest'";
+      return can_choose_frame(workspace)
+                 ? "Click parts that should stay, or press 'Hold the rest'"
+                 : "One pin moves the whole picture. Click parts that should stay, or press 'Hold "
+                   "the rest'";
     return hover_ ? "Drag to move; Alt-click to delete"
                   : "Click the picture to set a pin, then drag it";
   }
