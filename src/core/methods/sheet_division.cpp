@@ -98,30 +98,29 @@ void SheetDivision::share_samples(const Rest& rest) {
   }
 }
 
-/// The loose part that is nearest to one with a known leader goes first, and the others follow in
+/// The loose part that is nearest to an attached one is attached first, and the others follow in
 /// that order, as in Prim's algorithm. What is next to another loose part thus moves like that one,
 /// such as the dot of an i like its stem.
 void SheetDivision::find_leaders() {
-  std::vector<size_t> known, loose;
+  std::vector<size_t> attached, loose;
   for (size_t p = 0; p < parts_.size(); ++p)
-    (PuppetHandles(parts_[p].rest, {}).moves_cage() ? loose : known).push_back(p);
-  if (known.empty()) return;
+    (PuppetHandles(parts_[p].rest, {}).moves_cage() ? loose : attached).push_back(p);
+  if (attached.empty()) return;
   struct Link {
     size_t to = 0;
     NearestPoint nearest{.distance = std::numeric_limits<double>::infinity()};
   };
-  std::vector<Link> links(parts_.size());  // from each loose part to the nearest known one
+  std::vector<Link> links(parts_.size());  // from each loose part to the nearest attached one
   const auto offer = [&](size_t to) {
     for (const size_t p : loose) {
-      const FlatCage &known_outline = finder_.outline(static_cast<Index>(to)),
+      const FlatCage &theirs = finder_.outline(static_cast<Index>(to)),
                      &own = finder_.outline(static_cast<Index>(p));
-      if (distance_between(box_of(known_outline), box_of(own)) >= links[p].nearest.distance)
-        continue;
-      const NearestPoint nearest = nearest_between(known_outline, own);
+      if (distance_between(box_of(theirs), box_of(own)) >= links[p].nearest.distance) continue;
+      const NearestPoint nearest = nearest_between(theirs, own);
       if (nearest.distance < links[p].nearest.distance) links[p] = {to, nearest};
     }
   };
-  for (const size_t p : known) offer(p);
+  for (const size_t p : attached) offer(p);
   while (!loose.empty()) {
     const auto next =
         std::ranges::min_element(loose, {}, [&](size_t p) { return links[p].nearest.distance; });

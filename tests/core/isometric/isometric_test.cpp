@@ -1,8 +1,6 @@
 // Tests the isometric energy and its minimization: derivatives against differences, minima against
 // Ipopt and against the figures of the specification, and the certificate of every answer.
 #include <Eigen/Eigenvalues>
-#include <IpIpoptApplication.hpp>
-#include <IpTNLP.hpp>
 #include <random>
 
 #include "core/isometric/barrier.h"
@@ -12,6 +10,7 @@
 #include "core/mesh/mesher.h"
 #include "core/solvers/real_form.h"
 #include "support/catch.h"
+#include "support/ipopt.h"
 #include "support/seeds.h"
 
 namespace holomorph::isometric_test {
@@ -438,71 +437,6 @@ TEST_CASE("Isometric maps: impossible poses are certified, too") {
   }
 }
 
-namespace {
-
-/// The same minimization for Ipopt, with gradients only.
-class Program final : public Ipopt::TNLP {
- public:
-  Program(const IsometricSystem& system, const IsometricTarget& target,
-          const IsometricSettings& settings, VectorXd start)
-      : system_(system), target_(target), settings_(settings), start_(std::move(start)) {}
-
-  VectorXd solution;
-
-  bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& jacobian, Ipopt::Index& hessian,
-                    IndexStyleEnum& style) override {
-    n = static_cast<Ipopt::Index>(start_.size());
-    m = 0;
-    jacobian = hessian = 0;
-    style = C_STYLE;
-    return true;
-  }
-  bool get_bounds_info(Ipopt::Index n, double* xl, double* xu, Ipopt::Index, double*,
-                       double*) override {
-    std::fill(xl, xl + n, -1e19);
-    std::fill(xu, xu + n, 1e19);
-    return true;
-  }
-  bool get_starting_point(Ipopt::Index, bool, double* x, bool, double*, double*, Ipopt::Index, bool,
-                          double*) override {
-    std::copy(start_.begin(), start_.end(), x);
-    return true;
-  }
-  bool eval_f(Ipopt::Index n, const double* x, bool, double& f) override {
-    f = value(n, x);
-    return std::isfinite(f);
-  }
-  bool eval_grad_f(Ipopt::Index n, const double* x, bool, double* gradient) override {
-    if (!std::isfinite(value(n, x))) return false;
-    Eigen::Map<VectorXd>(gradient, n) =
-        isometric_derivatives(system_, target_, settings_, Eigen::Map<const VectorXd>(x, n))
-            .gradient;
-    return true;
-  }
-  bool eval_g(Ipopt::Index, const double*, bool, Ipopt::Index, double*) override { return true; }
-  bool eval_jac_g(Ipopt::Index, const double*, bool, Ipopt::Index, Ipopt::Index, Ipopt::Index*,
-                  Ipopt::Index*, double*) override {
-    return true;
-  }
-  void finalize_solution(Ipopt::SolverReturn, Ipopt::Index n, const double* x, const double*,
-                         const double*, Ipopt::Index, const double*, const double*, double,
-                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
-    solution = Eigen::Map<const VectorXd>(x, n);
-  }
-
- private:
-  double value(Ipopt::Index n, const double* x) const {
-    return isometric_value(system_, target_, settings_, Eigen::Map<const VectorXd>(x, n));
-  }
-
-  const IsometricSystem& system_;
-  const IsometricTarget& target_;
-  const IsometricSettings& settings_;
-  VectorXd start_;
-};
-
-}  // namespace
-
 TEST_CASE("Isometric program: its minimum equals Ipopt's from the same start") {
   for (const Problem& problem :
        {Problem{kBar, {{.5, 0}, {3, 0}, {5.5, 0}}, {{.5, 0}, {3, 0}, {5, 1}}, 25},
@@ -517,17 +451,13 @@ TEST_CASE("Isometric program: its minimum equals Ipopt's from the same start") {
     settings.penalty = 5;
     const VectorXd start = VectorXd::Zero(system.unknowns());
     const IsometricSolution own = minimized(system, prepared.target, settings, start);
-    const Ipopt::SmartPtr<Program> program = new Program(system, prepared.target, settings, start);
-    const Ipopt::SmartPtr<Ipopt::IpoptApplication> solver = IpoptApplicationFactory();
-    solver->Options()->SetIntegerValue("print_level", 0);
-    solver->Options()->SetStringValue("sb", "yes");
-    solver->Options()->SetStringValue("hessian_approximation", "limited-memory");
-    solver->Options()->SetNumericValue("tol", 1e-9);
-    solver->Options()->SetIntegerValue("max_iter", 3000);
-    REQUIRE(solver->Initialize() == Ipopt::Solve_Succeeded);
-    const auto status = solver->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(program)));
-    CHECK((status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level));
-    const double other = isometric_value(system, prepared.target, settings, program->solution);
+    const auto value = [&](const VectorXd& x) {
+      return isometric_value(system, prepared.target, settings, x);
+    };
+    const auto gradient = [&](const VectorXd& x) -> VectorXd {
+      return isometric_derivatives(system, prepared.target, settings, x).gradient;
+    };
+    const double other = value(minimum_by_ipopt(value, gradient, start));
     INFO("own " << own.total << ", Ipopt " << other);
     CHECK(own.converged);
     CHECK(std::abs(own.total - other) <= 1e-7 * other);
