@@ -72,9 +72,12 @@ void pin_gap(const Workspace& workspace, Index pin) {
   if (gap * workspace.layer_view().zoom <= 1) return;
   char text[80];
   std::snprintf(text, sizeof text,
-                gap < 10 ? "The picture stops %.1f px short." : "The picture stops %.0f px short.",
+                gap < 10 ? "The picture stops %.1f px short" : "The picture stops %.0f px short",
                 gap);
-  colored_text(theme_colors().warning, text);
+  const bool limited = workspace.map().map().note.find("stretch limit") != std::string::npos;
+  colored_text(
+      theme_colors().warning,
+      text + std::string(limited ? ": raise the stretch limit, or set Mode to Exact." : "."));
 }
 
 void pin_rows(Workspace& workspace, Index pin) {

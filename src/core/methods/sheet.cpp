@@ -114,6 +114,10 @@ Method sheet_method() {
            toggle("exact", "Exact pins", "Meet the pins exactly when the pointer is released"),
            by_decades("pin_weight", "Pin weight", "Higher values meet the pins more closely", 1e5,
                       1e2, 1e7),
+           number("most_stretch", "Stretch limit",
+                  "Pins give way rather than stretch a limb much farther than this, unless they "
+                  "are exact",
+                  3, 1.5, 20),
            loose_stay()},
       .uses_pins = true,
       .uses_strokes = true,

@@ -15,18 +15,14 @@ constexpr double kDiskPull = 10, kCagePull = 100;
 
 }  // namespace
 
-SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, double weight)
-    : handles_(rest, {}),
-      mesh_(domain.mesh),
-      domain_(domain),
-      weight_(weight / (domain.size * domain.size)) {
-  const IsometricHandles& all = handles_.isometric();
-  for (size_t i = 0; i < all.stations.size(); ++i) {
-    const Location at = domain.locator.near(all.stations[i]);
-    if (i < handles_.pins().size()) places_.push_back(at);
-    const double pull = handles_.moves_cage() ? kCagePull : 1;
-    holds_.rows.push_back({smooth_row(*mesh_, domain.gradients, at),
-                           pull * weight_ * all.weights[static_cast<Index>(i)]});
+SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, const SheetEnergy& energy,
+                           const Settings& settings)
+    : handles_(rest, {}), mesh_(domain.mesh), domain_(domain) {
+  for (size_t row = 0; row < stations().size(); ++row) {
+    const Location at = domain.locator.near(stations()[row]);
+    if (row < handles_.pins().size()) places_.push_back(at);
+    holds_.rows.push_back({smooth_row(*mesh_, domain.gradients, at)});
+    springs_.push_back(usual_spring(rest, row, energy, settings));
   }
   for (size_t row = 0; row < pins().size(); ++row) {
     guides_.push_back(disk_of(rest, row));
@@ -34,6 +30,25 @@ SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, double w
   }
   if (rest.frame != Frame::free) add_frame(rest);
   if (rest.held_beyond && !pins().empty()) hold_beyond(*rest.held_beyond);
+}
+
+/// With the strength F, a pin at the tip of a limb with the half width h stretches it by F A / (2 h
+/// s), where s is the stiffness. Inside, pins act on both sides, and pull twice as hard.
+Spring SheetHandles::usual_spring(const Rest& rest, size_t row, const SheetEnergy& energy,
+                                  const Settings& settings) const {
+  const double weight = settings.pin_weight / (domain_.size * domain_.size);
+  if (moves_cage())
+    return {kCagePull * weight * handles_.isometric().weights[static_cast<Index>(row)]};
+  if (!settings.most_stretch) return {weight};
+  constexpr double kNarrowest = 0.05;  // of the size; a tip still turns its limb
+  constexpr double kFar = 0.1;         // of the force, added where a pin misses by the size
+  const Complex z = stations()[row];
+  double width = std::max(domain_.width.at(z), kNarrowest * domain_.size);
+  if (row < pins().size()) width = std::max(width, rest.pins[pins()[row]].radius.value_or(0));
+  const double depth = nearest_on_polygon(outline_of(rest.cage), z).distance,
+               force = 2 * *settings.most_stretch * (width + depth) *
+                       std::pow(10, stiffness_level(rest.stiffness, z)) / energy.stiff_area();
+  return {weight, 1 / force, kFar * force / (2 * domain_.size)};
 }
 
 /// Half of a limb's half width, so that a ring on a head turns the head, and the neck bends.
@@ -70,7 +85,7 @@ SheetHandles::Disk SheetHandles::disk_of(const Rest& rest, size_t row) const {
   double all = 0;
   for (const auto& [v, share] : shares) all += share;
   Disk disk;
-  for (const auto& [v, share] : shares) disk.emplace_back(v, kDiskPull * weight_ * share / all);
+  for (const auto& [v, share] : shares) disk.emplace_back(v, share / all);
   return disk;
 }
 
@@ -142,12 +157,28 @@ Points SheetHandles::straight(const Target& target, double part) const {
   return at;
 }
 
-SheetPull SheetHandles::pull(const Target& target, Points at, double part, double guide) const {
-  SheetPull pull{std::move(at)};
+/// Pins that stay near rest hold more firmly than those that go far, so that a hand that is pulled
+/// off does not take the feet with it.
+Spring SheetHandles::spring(size_t row, const Target& target) const {
+  constexpr double kFirmer = 3, kNear = 0.05;  // of the size
+  const double moved =
+      std::abs(target.displacements[static_cast<Index>(row)]) / (kNear * domain_.size);
+  Spring spring = springs_[row];
+  spring.inverse_force /= 1 + kFirmer / (1 + moved);
+  return spring;
+}
+
+SheetPull SheetHandles::pull(const Target& target, const Points& at, double part,
+                             double guide) const {
+  SheetPull pull;
+  for (size_t row = 0; row < at.size(); ++row) pull.rows.push_back({at[row], spring(row, target)});
   const auto turn_around = [&](size_t row, Complex by, double strength) {
-    for (const auto& [v, weight] : guides_[row]) {
+    constexpr double kForce = 2;  // turning takes more of it than pulling
+    Spring whole = kDiskPull * pull.rows[row].spring;
+    whole.inverse_force *= kDiskPull / kForce;
+    for (const auto& [v, share] : guides_[row]) {
       const Complex arm = mesh_->vertices[static_cast<size_t>(v)] - stations()[row];
-      pull.vertices.push_back({v, pull.targets[row] + by * arm, strength * weight});
+      pull.vertices.push_back({v, pull.rows[row].target + by * arm, strength * share * whole});
     }
   };
   for (size_t k = 0; k < framed_.size(); ++k)

@@ -12,8 +12,14 @@ namespace holomorph {
 /// with frames pull at the vertices of their disks.
 class SheetHandles {
  public:
-  /// `weight` is the pull of a pin per squared distance in units of the picture's size.
-  SheetHandles(const Rest& rest, const SheetDomain& domain, double weight);
+  struct Settings {
+    double pin_weight = 0;  ///< per squared distance in units of the picture's size
+    /// Pins and strokes give way where they would stretch a limb farther than this. None: they do
+    /// not.
+    std::optional<double> most_stretch;
+  };
+  SheetHandles(const Rest& rest, const SheetDomain& domain, const SheetEnergy& energy,
+               const Settings& settings);
 
   const SheetHolds& holds() const { return holds_; }
   /// The pins that act, which have the first rows, and where they lie in the mesh.
@@ -45,19 +51,27 @@ class SheetHandles {
   Points straight(const Target& target, double part) const;
   /// The pull at a part of the way, where the rows are at these points. Pins with turns also turn
   /// the disks around them, with this part of the pull of a frame.
-  SheetPull pull(const Target& target, Points at, double part, double guide) const;
+  SheetPull pull(const Target& target, const Points& at, double part, double guide) const;
   /// The pull at the end.
   SheetPull pull(const Target& target) const { return pull(target, straight(target, 1), 1, 0); }
   /// The image of a row.
   Complex image(size_t row, const VectorXc& f) const { return holds_.rows[row].image(f); }
+  /// Whether a row's spring gives way where it misses its target by this.
+  bool gives_way(size_t row, const Target& target, double missed) const {
+    const Spring own = spring(row, target);
+    return 2 * own.weight * own.inverse_force * missed > 1;
+  }
   Complex wanted(size_t row, const Target& target) const {
     return stations()[row] + target.displacements[static_cast<Index>(row)];
   }
 
  private:
-  /// The vertices around a pin, with weights.
+  /// The vertices around a pin, with parts of its pull.
   using Disk = std::vector<std::pair<int, double>>;
   const Points& stations() const { return handles_.isometric().stations; }
+  Spring usual_spring(const Rest& rest, size_t row, const SheetEnergy& energy,
+                      const Settings& settings) const;
+  Spring spring(size_t row, const Target& target) const;
   Disk disk_of(const Rest& rest, size_t row) const;
   void add_frame(const Rest& rest);
   void hold_beyond(double radius);
@@ -65,8 +79,8 @@ class SheetHandles {
   PuppetHandles handles_;
   std::shared_ptr<const Mesh> mesh_;
   const SheetDomain& domain_;
-  double weight_;
   SheetHolds holds_;
+  std::vector<Spring> springs_;  ///< of the rows, where these are far from rest
   std::vector<Location> places_;
   std::vector<Disk> guides_;    ///< around all pins
   std::vector<size_t> framed_;  ///< the rows of pins with frames

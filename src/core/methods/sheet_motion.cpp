@@ -70,19 +70,22 @@ class SheetInterval final : public MotionInterval {
     const SheetKey &from = *keys_[1], &to = *keys_[2];
     const auto missed = [&](const auto& off) { return (1 - u) * off(from) + u * off(to); };
     SheetPull pull = from.pull;
-    for (size_t row = 0; row < pull.targets.size(); ++row) {
-      if (row < met_.size() && met_[row] != 0 && from.pull.targets[row] == to.pull.targets[row])
+    for (size_t row = 0; row < pull.rows.size(); ++row) {
+      if (row < met_.size() && met_[row] != 0 &&
+          from.pull.rows[row].target == to.pull.rows[row].target)
         continue;
       const auto off = [&](const SheetKey& key) {
-        return key.pull.targets[row] - solver().handles().image(row, key.shape.f);
+        return key.pull.rows[row].target - solver().handles().image(row, key.shape.f);
       };
-      pull.targets[row] = solver().handles().image(row, f) + missed(off);
+      pull.rows[row].spring = between(from.pull.rows[row].spring, to.pull.rows[row].spring, u);
+      pull.rows[row].target = solver().handles().image(row, f) + missed(off);
     }
     for (size_t k = 0; k < pull.vertices.size(); ++k) {
       VertexPull& at = pull.vertices[k];
       const auto off = [&](const SheetKey& key) {
         return key.pull.vertices[k].target - key.shape.f[at.vertex];
       };
+      at.spring = between(at.spring, to.pull.vertices[k].spring, u);
       at.target = f[at.vertex] + missed(off);
     }
     return pull;
@@ -109,12 +112,22 @@ class SheetMotion final : public ProvedMotion {
     std::vector<char> met;
     const SheetSolver& solver = *setting_->solver;
     for (size_t i = 0; i < solver.handles().pins().size(); ++i)
-      met.push_back(solver.settings().exact ||
-                    keys[1]->pull.targets[i] == keys[2]->pull.targets[i]);
+      met.push_back(solver.settings().exact || holds(*keys[1], *keys[2], i));
     return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(met));
   }
 
  private:
+  /// Whether a pin is at its target, the same one, at both keys.
+  bool holds(const SheetKey& from, const SheetKey& to, size_t pin) const {
+    constexpr double kMet = 1e-3;  // of the size
+    const SheetSolver& solver = *setting_->solver;
+    const Complex target = from.pull.rows[pin].target;
+    return target == to.pull.rows[pin].target &&
+           std::ranges::all_of(std::array{&from, &to}, [&](const SheetKey* key) {
+             return std::abs(solver.handles().image(pin, key->shape.f) - target) <=
+                    kMet * solver.domain().size;
+           });
+  }
   /// None if the key is not certified.
   std::optional<SheetKey> key_of(const MotionKey* key) const {
     if (!key || !key->extremes) return {};

@@ -12,7 +12,7 @@ namespace {
 SheetSolver::Settings settings_of(const Rest& rest) {
   const Method& method = method_named("sheet");
   const auto value = [&](const char* key) { return parameter(method, rest.parameters, key); };
-  return {value("roundness"), value("pin_weight"), value("exact") != 0};
+  return {value("roundness"), value("pin_weight"), value("most_stretch"), value("exact") != 0};
 }
 
 }  // namespace
@@ -107,12 +107,17 @@ std::string SheetPart::missed_text(const SheetHandles::Target& target, const Smo
                                    const std::optional<Extremes>& extremes) const {
   Points offsets;
   std::vector<size_t> pins;
+  bool limited = false;
+  const double least = kMissed * domain().size;
   for (size_t i = 0; i < handles().pins().size(); ++i) {
     offsets.push_back(map.at(handles().places()[i]).f - handles().wanted(i, target));
     pins.push_back(numbers_[handles().pins()[i]]);
+    const double missed = std::abs(offsets.back());
+    limited = limited || (missed >= least && handles().gives_way(i, target, missed));
   }
-  const std::string missed = missed_pins_text(pins, offsets, kMissed * domain().size);
-  return missed.empty() ? missed : missed + strain_text(extremes);
+  const std::string missed = missed_pins_text(pins, offsets, least);
+  if (missed.empty()) return missed;
+  return missed + (limited ? ", at the stretch limit" : strain_text(extremes));
 }
 
 /// Whether the map that the turns lead to costs much more than the map without them.

@@ -35,6 +35,12 @@ std::shared_ptr<const SheetEnergy> energy_of(const Rest& rest, const SheetDomain
   return std::make_shared<const SheetEnergy>(domain.mesh, std::move(stiffness), bending);
 }
 
+SheetHandles::Settings handle_settings(const SheetSolver::Settings& settings) {
+  SheetHandles::Settings out{settings.pin_weight, {}};
+  if (!settings.exact) out.most_stretch = settings.most_stretch;
+  return out;
+}
+
 }  // namespace
 
 SheetSolver::SheetSolver(const Rest& rest, const Settings& settings, const SheetSolver* previous)
@@ -49,7 +55,7 @@ SheetSolver::SheetSolver(const Rest& rest, const Settings& settings, const Sheet
                       previous->settings_.roundness == settings.roundness
                   ? previous->energy_
                   : energy_of(rest, *domain_, settings.roundness)),
-      handles_(rest, *domain_, settings.pin_weight),
+      handles_(rest, *domain_, *energy_, handle_settings(settings)),
       program_(std::make_unique<SheetProgram>(energy_, handles_.holds())) {}
 
 SheetState SheetSolver::at_rest() const {
@@ -132,7 +138,7 @@ SheetState SheetSolver::reached(const SheetHandles::Target& target,
         at[row] = handles_.image(row, f) +
                   part * (handles_.wanted(row, target) - handles_.image(row, path->end.f));
     }
-    minimize(handles_.pull(target, std::move(at), part, 1), 1, state, stop);
+    minimize(handles_.pull(target, at, part, 1), 1, state, stop);
   }
   // Let go of the turns gently, or the picture springs back farther than it has to.
   if (target.has_turns())
@@ -153,14 +159,16 @@ SheetState SheetSolver::followed(const SheetHandles::Target& target, SheetState 
 void SheetSolver::meet(SheetPull pull, const std::vector<char>& met, double within,
                        SheetState& state) const {
   constexpr int kRounds = 12, kSteps = 4;
-  const Points wanted = pull.targets;
+  const std::vector<SheetPull::Row> wanted = pull.rows;
+  for (size_t i = 0; i < met.size(); ++i)
+    if (met[i] != 0) pull.rows[i].spring = pull.rows[i].spring.firm();
   for (int round = 0; round < kRounds; ++round) {
     double missed = 0;
     for (size_t i = 0; i < handles_.pins().size(); ++i) {
       if (met[i] == 0) continue;
-      const Complex off = wanted[i] - handles_.image(i, state.f);
+      const Complex off = wanted[i].target - handles_.image(i, state.f);
       missed = std::max(missed, std::abs(off));
-      pull.targets[i] += off;
+      pull.rows[i].target += off;
     }
     if (missed <= within * domain_->size) return;
     minimize(pull, kSteps, state);

@@ -9,6 +9,8 @@ namespace holomorph {
 
 namespace {
 
+constexpr double kRows = 1e3;  // the weight of a squared miss
+
 VectorXc at_rest(const Mesh& mesh) {
   return Eigen::Map<const VectorXc>(mesh.vertices.data(), static_cast<Index>(mesh.vertices.size()));
 }
@@ -26,7 +28,7 @@ ConformalPaths::ConformalPaths(std::shared_ptr<const Mesh> mesh, std::vector<She
       rest_(between_.shape_of(at_rest(*mesh_), 0)),
       factor_(std::make_unique<Factor>()) {
   // Adding a small part of the Dirichlet energy makes the matrix definite.
-  constexpr double kDirichlet = 1e-3, kRows = 1e3;
+  constexpr double kDirichlet = 1e-3;
   std::vector<Eigen::Triplet<Complex>> entries;
   for (const Triangle& t : mesh_->triangles) {
     const double area = area_of(*mesh_, t);
@@ -43,7 +45,6 @@ ConformalPaths::ConformalPaths(std::shared_ptr<const Mesh> mesh, std::vector<She
   const Index n = static_cast<Index>(mesh_->vertices.size());
   Eigen::SparseMatrix<Complex> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  for (SheetRow& row : rows_) row.weight = kRows;
   factor_->solver.compute(matrix);
   check(factor_->solver.info() == Eigen::Success, "sheet: the conformal energy is definite");
 }
@@ -54,7 +55,7 @@ ConformalPaths::Path ConformalPaths::path(const VectorXc& displacements) const {
   VectorXc pull = VectorXc::Zero(static_cast<Index>(mesh_->vertices.size()));
   for (size_t r = 0; r < rows_.size(); ++r)
     for (const auto& [v, weight] : rows_[r].terms)
-      pull[v] += rows_[r].weight * weight * displacements[static_cast<Index>(r)];
+      pull[v] += kRows * weight * displacements[static_cast<Index>(r)];
   const VectorXc f = at_rest(*mesh_) + factor_->solver.solve(pull);
   Inbetween::Shape end = between_.shape_of(f, 0);
   const double turns = std::round(end.logarithm.imag().mean() / (2 * kPi));

@@ -55,14 +55,13 @@ SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
   check(bending.size() == vertices, "sheet: a bending length for each vertex");
   const std::vector<char> outer = boundary_marks(mesh);
   VectorXd masses = VectorXd::Zero(vertices), stiff_masses = masses;
-  double area = 0;
   using Entry = Eigen::Triplet<double>;
   std::vector<Entry> entries;
   for (Index i = 0; i < triangles; ++i) {
     const Triangle& t = mesh.triangles[static_cast<size_t>(i)];
     const double own = area_of(mesh, t);
     weights_[i] *= own;
-    area += weights_[i];
+    stiff_area_ += weights_[i];
     Gradients& gradients = gradients_.emplace_back();
     for (int k = 0; k < 3; ++k) {
       gradients[static_cast<size_t>(k)] = -kI * std::conj(opposite_side(mesh, t, k)) / (4 * own);
@@ -82,7 +81,7 @@ SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
       }
     }
   }
-  weights_ /= area;
+  weights_ /= stiff_area_;
   second_.resize(3 * vertices, vertices);
   second_.setFromTriplets(entries.begin(), entries.end());
   // The area around outline vertices bends as their neighbors inside do.
@@ -91,7 +90,7 @@ SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
   for (Index v = 0; v < vertices; ++v)
     for (int k = 0; k < 3; ++k) {  // f_xy counts twice in |H|^2
       inverse_masses[3 * v + k] = 1 / masses[v];
-      squares[3 * v + k] = (k == 1 ? 2 : 1) * shares[v] * bending[v] * bending[v] / area;
+      squares[3 * v + k] = (k == 1 ? 2 : 1) * shares[v] * bending[v] * bending[v] / stiff_area_;
     }
   second_ = inverse_masses.asDiagonal() * second_;
   bending_ = second_.transpose() * squares.asDiagonal() * second_;

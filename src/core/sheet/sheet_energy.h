@@ -42,6 +42,7 @@ class SheetEnergy {
   SheetEnergy(std::shared_ptr<const Mesh> mesh, VectorXd stiffness, const VectorXd& bending);
 
   const Mesh& mesh() const { return *mesh_; }
+  double stiff_area() const { return stiff_area_; }  ///< A
   double membrane(const VectorXc& f) const;
   double bending(const VectorXc& f) const;
   double value(const VectorXc& f) const { return membrane(f) + bending(f); }
@@ -71,7 +72,8 @@ class SheetEnergy {
 
   std::shared_ptr<const Mesh> mesh_;
   std::vector<Gradients> gradients_;
-  VectorXd weights_;                                     ///< A_t s_t / A
+  VectorXd weights_;  ///< A_t s_t / A
+  double stiff_area_ = 0;
   Eigen::SparseMatrix<double, Eigen::RowMajor> second_;  ///< f_xx, f_xy and f_yy for each vertex
   Eigen::SparseMatrix<double> bending_;
 };

@@ -27,6 +27,30 @@ int slot_of(const Matrix& matrix, Index i, Index j) {
   return static_cast<int>(found - matrix.innerIndexPtr());
 }
 
+/// Calls visit(i, j, part, block) for the entries of a row's Hessian, which is `part` times the
+/// entry 0 to 3 of a 2 x 2 block.
+void for_entries(const SheetRow& row, auto&& visit) {
+  for (const auto& [v, a] : row.terms)
+    for (const auto& [w, b] : row.terms)
+      for (int k = 0; k < 4; ++k) visit(2 * v + k / 2, 2 * w + k % 2, a * b, k);
+}
+
+Eigen::Vector2d vector(Complex z) {
+  return {z.real(), z.imag()};
+}
+
+/// Derivatives of a spring that misses its target by `off`. `projected`: a semidefinite matrix that
+/// bounds the second derivatives, so that steps cannot overshoot.
+Eigen::Vector2d gradient_of(const Spring& spring, Complex off) {
+  return 2 * spring.slope(std::norm(off)) * vector(off);
+}
+Eigen::Matrix2d hessian_of(const Spring& spring, Complex off, bool projected) {
+  Eigen::Matrix2d hessian = 2 * spring.slope(std::norm(off)) * Eigen::Matrix2d::Identity();
+  if (!projected)
+    hessian += 4 * spring.curvature(std::norm(off)) * vector(off) * vector(off).transpose();
+  return hessian;
+}
+
 }  // namespace
 
 struct SheetProgram::Factor {
@@ -51,9 +75,7 @@ SheetProgram::SheetProgram(std::shared_ptr<const SheetEnergy> energy, SheetHolds
     for (Matrix::InnerIterator at(bending, column); at; ++at)
       for (Index k = 0; k < 2; ++k) add(2 * at.row() + k, 2 * column + k, at.value());
   for (const SheetRow& row : holds_.rows)
-    for (const auto& [v, a] : row.terms)
-      for (const auto& [w, b] : row.terms)
-        for (Index k = 0; k < 2; ++k) add(2 * v + k, 2 * w + k, 2 * row.weight * a * b);
+    for_entries(row, [&](Index i, Index j, double, int) { add(i, j, 0); });
   for (const Triangle& t : mesh.triangles)
     for (const int v : t)
       for (const int w : t)
@@ -70,6 +92,12 @@ SheetProgram::SheetProgram(std::shared_ptr<const SheetEnergy> energy, SheetHolds
         slots[at++] = is_fixed(row) || is_fixed(column) ? -1 : slot_of(constant_, row, column);
       }
   }
+  for (const SheetRow& row : holds_.rows) {
+    std::vector<int>& slots = row_slots_.emplace_back();
+    for_entries(row, [&](Index i, Index j, double, int) {
+      slots.push_back(i < j || is_fixed(i) || is_fixed(j) ? -1 : slot_of(constant_, i, j));
+    });
+  }
   factor_->matrix = constant_;
   factor_->solver.analyzePattern(constant_);
 }
@@ -79,8 +107,9 @@ SheetProgram::~SheetProgram() = default;
 double SheetProgram::value(const VectorXc& f, const SheetPull& pull) const {
   double sum = energy_->value(f);
   for (size_t r = 0; r < holds_.rows.size(); ++r)
-    sum += holds_.rows[r].weight * std::norm(holds_.rows[r].image(f) - pull.targets[r]);
-  for (const VertexPull& at : pull.vertices) sum += at.weight * std::norm(f[at.vertex] - at.target);
+    sum += pull.rows[r].spring.value(std::norm(holds_.rows[r].image(f) - pull.rows[r].target));
+  for (const VertexPull& at : pull.vertices)
+    sum += at.spring.value(std::norm(f[at.vertex] - at.target));
   return sum;
 }
 
@@ -95,14 +124,12 @@ VectorXd SheetProgram::gradient(const VectorXc& f, const SheetPull& pull) const 
   }
   for (size_t r = 0; r < holds_.rows.size(); ++r) {
     const SheetRow& row = holds_.rows[r];
-    const Complex off = 2 * row.weight * (row.image(f) - pull.targets[r]);
-    for (const auto& [v, weight] : row.terms)
-      gradient.segment<2>(2 * v) += weight * Eigen::Vector2d(off.real(), off.imag());
+    const Eigen::Vector2d own =
+        gradient_of(pull.rows[r].spring, row.image(f) - pull.rows[r].target);
+    for (const auto& [v, weight] : row.terms) gradient.segment<2>(2 * v) += weight * own;
   }
-  for (const VertexPull& at : pull.vertices) {
-    const Complex off = 2 * at.weight * (f[at.vertex] - at.target);
-    gradient.segment<2>(2 * at.vertex) += Eigen::Vector2d(off.real(), off.imag());
-  }
+  for (const VertexPull& at : pull.vertices)
+    gradient.segment<2>(2 * at.vertex) += gradient_of(at.spring, f[at.vertex] - at.target);
   for (Index i = 0; i < gradient.size(); ++i)
     if (is_fixed(i)) gradient[i] = 0;
   return gradient;
@@ -120,10 +147,24 @@ bool SheetProgram::factorize(const SheetPull& pull, const VectorXc& f, bool proj
       for (Index j = 0; j <= k; ++j, ++at)
         if (const int slot = slots_[i][at]; slot >= 0) values[slot] += own(k, j);
   }
-  // Entries of the diagonal are the first of their columns.
-  for (const VertexPull& at : pull.vertices)
-    for (Index i = 2 * at.vertex; i < 2 * at.vertex + 2; ++i)
-      if (!is_fixed(i)) values[matrix.outerIndexPtr()[i]] += 2 * at.weight;
+  for (size_t r = 0; r < holds_.rows.size(); ++r) {
+    const SheetRow& row = holds_.rows[r];
+    const Eigen::Matrix2d own =
+        hessian_of(pull.rows[r].spring, row.image(f) - pull.rows[r].target, projected);
+    auto slot = row_slots_[r].begin();
+    for_entries(row, [&](Index, Index, double part, int k) {
+      if (*slot >= 0) values[*slot] += part * own(k / 2, k % 2);
+      ++slot;
+    });
+  }
+  // Entries of the diagonal are the first of their columns, followed by those below.
+  for (const VertexPull& at : pull.vertices) {
+    const Eigen::Matrix2d own = hessian_of(at.spring, f[at.vertex] - at.target, projected);
+    const int x = 2 * at.vertex, y = x + 1;
+    if (!is_fixed(x)) values[matrix.outerIndexPtr()[x]] += own(0, 0);
+    if (!is_fixed(y)) values[matrix.outerIndexPtr()[y]] += own(1, 1);
+    if (!is_fixed(x) && !is_fixed(y)) values[matrix.outerIndexPtr()[x] + 1] += own(1, 0);
+  }
   double largest = 0;
   for (Index i = 0; i < matrix.cols(); ++i)
     largest = std::max(largest, values[matrix.outerIndexPtr()[i]]);
@@ -134,7 +175,7 @@ bool SheetProgram::factorize(const SheetPull& pull, const VectorXc& f, bool proj
 }
 
 SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool projected) const {
-  check(pull.targets.size() == holds_.rows.size(), "sheet: a target for each row");
+  check(pull.rows.size() == holds_.rows.size(), "sheet: a target for each row");
   const double before = value(f, pull);
   const std::lock_guard lock(factor_->in_use);
   if ((projected || !factorize(pull, f, false)) && !factorize(pull, f, true)) return {before, 0, 0};

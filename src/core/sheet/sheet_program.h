@@ -4,14 +4,13 @@
 #include <functional>
 
 #include "core/sheet/sheet_energy.h"
+#include "core/sheet/spring.h"
 
 namespace holomorph {
 
-/// A point that a handle pulls at. Its image is a sum of the images of vertices with real weights,
-/// and costs `weight` times its squared distance from the handle's target.
+/// A point that a handle pulls at. Its image is a sum of the images of vertices with real weights.
 struct SheetRow {
   std::vector<std::pair<int, double>> terms;  ///< vertices and their weights
-  double weight = 0;                          ///< per squared unit of the plane
 
   Complex image(const VectorXc& f) const {
     Complex sum = 0;
@@ -27,16 +26,20 @@ struct SheetHolds {
   std::vector<std::array<bool, 2>> fixed;
 };
 
-/// A pull at a vertex. It costs `weight` times the squared distance from the target.
+/// A pull at a vertex.
 struct VertexPull {
   int vertex = 0;
   Complex target;
-  double weight = 0;  ///< per squared unit of the plane
+  Spring spring;
 };
 
 /// Where the handles pull a sheet.
 struct SheetPull {
-  Points targets;  ///< of the rows
+  struct Row {
+    Complex target;
+    Spring spring;
+  };
+  std::vector<Row> rows;
   std::vector<VertexPull> vertices = {};
 };
 
@@ -82,10 +85,12 @@ class SheetProgram {
 
   std::shared_ptr<const SheetEnergy> energy_;
   SheetHolds holds_;
-  Eigen::SparseMatrix<double> constant_;  ///< of bending and rows; the lower triangle
+  Eigen::SparseMatrix<double> constant_;  ///< of bending; the lower triangle
   /// For each triangle, where the lower triangle of its 6 x 6 Hessian goes in the values of the
   /// matrix; -1 for fixed unknowns.
   std::vector<std::array<int, 21>> slots_;
+  std::vector<std::vector<int>>
+      row_slots_;  ///< the same for rows, with 2 x 2 blocks of their terms
   std::unique_ptr<Factor> factor_;
 };
 

@@ -221,6 +221,30 @@ TEST_CASE("Sheet: turns choose among maps of one pose") {
   }
 }
 
+TEST_CASE("Sheet: pins give way at the stretch limit, and those at rest hold") {
+  Rest rest = rest_of(polygon_cage(shapes::rectangle(800, 120)), {{40, 60}, {760, 60}}, 600);
+  Pose pose = at_rest(rest);
+  pose.pins[1].position += 12000;
+  std::vector<double> lengths;
+  for (const double limit : {1.5, 3.0, 6.0}) {
+    rest.parameters["most_stretch"] = limit;
+    const auto deformer = prepared(rest);
+    CHECK(deformer->deform(pose, {}).note.find("stretch limit") != std::string::npos);
+    const auto points = deformer->point_map(pose);
+    CHECK(std::abs(points->at({40, 60}).f - pose.pins[0].position) < 1e-3 * size_of(rest));
+    lengths.push_back(std::abs(points->at({500, 60}).f - points->at({300, 60}).f) / 200);
+    // A pin that is not at the very end pulls up to twice as hard.
+    CHECK(lengths.back() > 0.9 * limit);
+    CHECK(lengths.back() < 4 * limit);
+  }
+  CHECK(lengths[0] < lengths[1]);
+  CHECK(lengths[1] < lengths[2]);
+  // A pull within the limit is followed.
+  pose.pins[1].position = {760 + 500, 60};
+  const auto points = prepared(rest)->point_map(pose);
+  CHECK(std::abs(points->at({760, 60}).f - pose.pins[1].position) < 1e-3 * size_of(rest));
+}
+
 TEST_CASE("Sheet: painted parts change less") {
   const auto stretch = [](bool painted) {
     Rest rest = rest_of(polygon_cage(shapes::rectangle(800, 120)), {{40, 60}, {760, 60}}, 900);

@@ -24,9 +24,9 @@ VectorXc at_rest(const Mesh& mesh) {
   return Eigen::Map<const VectorXc>(mesh.vertices.data(), static_cast<Index>(mesh.vertices.size()));
 }
 
-SheetRow row_at(const Mesh& mesh, Complex z, double weight) {
+SheetRow row_at(const Mesh& mesh, Complex z) {
   const Location at = locate_near(mesh, z);
-  SheetRow row{{}, weight};
+  SheetRow row;
   for (size_t k = 0; k < 3; ++k)
     row.terms.emplace_back(mesh.triangles[static_cast<size_t>(at.triangle)][k], at.weights[k]);
   return row;
@@ -112,8 +112,8 @@ TEST_CASE("Sheet: derivatives of its energy agree with differences") {
     SheetHolds holds;
     SheetPull pull;
     for (int p = 0; p < 3; ++p) {
-      holds.rows.push_back(row_at(mesh, mesh.vertices[static_cast<size_t>(20 * p + 9)], 0.02));
-      pull.targets.push_back(300.0 * random_complex(random));
+      holds.rows.push_back(row_at(mesh, mesh.vertices[static_cast<size_t>(20 * p + 9)]));
+      pull.rows.push_back({300.0 * random_complex(random), {0.02, p == 0 ? 0 : 0.2, 0.001}});
     }
     const SheetProgram program(sheet, holds);
     const VectorXd gradient = program.gradient(f, pull);
@@ -175,8 +175,8 @@ TEST_CASE("Sheet: Newton steps end at a minimum, without flips on the way") {
     SheetPull pull;
     for (int p = 0; p < 4; ++p) {
       const Complex z = Complex(200, 200) + std::polar(60.0, 2 * kPi * p / 4);
-      holds.rows.push_back(row_at(mesh, z, 1e4 / (size * size)));
-      pull.targets.push_back(z + 60.0 * random_complex(random));
+      holds.rows.push_back(row_at(mesh, z));
+      pull.rows.push_back({z + 60.0 * random_complex(random), {1e4 / (size * size)}});
     }
     SheetProgram program(sheet, holds);
     VectorXc f = at_rest(mesh);
@@ -205,10 +205,10 @@ TEST_CASE("Sheet: fixed coordinates stay") {
   // A picture's frame: vertices on a side slide along it, and corners stay.
   for (const Complex& z : mesh.vertices)
     holds.fixed.push_back({z.real() == 0 || z.real() == 300, z.imag() == 0 || z.imag() == 200});
-  holds.rows.push_back(row_at(mesh, {150, 100}, 1));
+  holds.rows.push_back(row_at(mesh, {150, 100}));
   SheetProgram program(sheet, holds);
   VectorXc f = at_rest(mesh);
-  const SheetPull pull{{{220, 150}}};
+  const SheetPull pull{{{{220, 150}, {1}}}};
   program.minimize(pull, f, 40);
   CHECK(program.value(f, pull) < program.value(at_rest(mesh), pull) / 10);
   CHECK(flipped_triangles(mesh, f) == 0);
@@ -236,8 +236,8 @@ TEST_CASE(
       SheetHolds holds;
       SheetPull pull;
       for (const auto& [from, to] : pins) {
-        holds.rows.push_back(row_at(sheet->mesh(), from, 1e4 / (size * size)));
-        pull.targets.push_back(to);
+        holds.rows.push_back(row_at(sheet->mesh(), from));
+        pull.rows.push_back({to, {1e4 / (size * size)}});
       }
       SheetProgram program(sheet, holds);
       VectorXc f = at_rest(sheet->mesh());
