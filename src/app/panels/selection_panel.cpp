@@ -72,12 +72,11 @@ void pin_gap(const Workspace& workspace, Index pin) {
   if (gap * workspace.layer_view().zoom <= 1) return;
   char text[80];
   std::snprintf(text, sizeof text,
-                gap < 10 ? "The picture stops %.1f px short" : "The picture stops %.0f px short",
+                gap < 10 ? "The picture stops %.1f px short." : "The picture stops %.0f px short.",
                 gap);
-  const bool limited = workspace.map().map().note.find("stretch limit") != std::string::npos;
-  colored_text(
-      theme_colors().warning,
-      text + std::string(limited ? ": raise the stretch limit, or set Mode to Exact." : "."));
+  colored_text(theme_colors().warning, text);
+  if (workspace.map().map().note.find("stretch limit") != std::string::npos)
+    caption("The pin gives way at the stretch limit. Exact pins do not.");
 }
 
 void pin_rows(Workspace& workspace, Index pin) {
