@@ -2,8 +2,10 @@
 #include "scene/prepared_map.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/clock.h"
+#include "core/mesh/divided.h"
 #include "scene/budget.h"
 #include "scene/solving_mesh.h"
 
@@ -34,6 +36,15 @@ bool is_same_curve(const Cage& a, const Cage& b) {
 
 bool differ(const std::vector<Depth>& depths) {
   return std::ranges::any_of(depths, [&](const Depth& d) { return d.depth != depths[0].depth; });
+}
+
+/// A mesh with about the wanted number of vertices, or more. Its triangles lie inside those of the
+/// other one, in which a map that does not fold is so smooth that they hardly ever flip.
+std::shared_ptr<const Mesh> divided_for(const std::shared_ptr<const Mesh>& mesh,
+                                        const MeshOptions& options) {
+  const double finer = options.vertices / static_cast<double>(mesh->vertices.size());
+  const int parts = std::max(1, static_cast<int>(std::lround(std::sqrt(finer))));
+  return parts == 1 ? mesh : std::make_shared<const Mesh>(divided(*mesh, parts));
 }
 
 }  // namespace
@@ -93,21 +104,26 @@ std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precis
   auto prepared = std::make_unique<PreparedMap>();
   prepared->rest = rest_of(deformation, precision);
   prepared->method = deformation.method;
-  const bool same_cage =
-      previous && previous->mesh && is_same_curve(previous->rest.cage, prepared->rest.cage);
+  const bool smooths = method_named(deformation.method).smooths_mesh;
+  const bool same_mesh = previous && previous->mesh &&
+                         is_same_curve(previous->rest.cage, prepared->rest.cage) &&
+                         method_named(previous->method).smooths_mesh == smooths;
   check_coordinates(prepared->rest, options.vertices);
-  prepared->mesh = same_cage ? previous->mesh
-                             : std::make_shared<const Mesh>(domain_mesh(deformation.rest, options));
+  if (same_mesh) {
+    prepared->mesh = previous->mesh;
+    prepared->rest.mesh = previous->rest.mesh;
+  } else if (smooths) {
+    prepared->rest.mesh = std::make_shared<const Mesh>(solving_mesh(deformation.rest));
+    prepared->mesh = divided_for(prepared->rest.mesh, options);
+  } else {
+    prepared->mesh = std::make_shared<const Mesh>(domain_mesh(deformation.rest, options));
+    prepared->rest.mesh = prepared->mesh;
+  }
   check_coordinates(prepared->rest, static_cast<Index>(prepared->mesh->vertices.size()));
   prepared->rest.samples = prepared->mesh->vertices;
-  prepared->rest.mesh = prepared->mesh;
-  if (method_named(deformation.method).smooths_mesh)
-    prepared->rest.mesh = same_cage && method_named(previous->method).smooths_mesh
-                              ? previous->rest.mesh
-                              : std::make_shared<const Mesh>(solving_mesh(deformation.rest));
-  if (same_cage) prepared->between.store(previous->between.load());
+  if (same_mesh) prepared->between.store(previous->between.load());
   prepared->rest.derivative_samples =
-      same_cage ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
+      same_mesh ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);
   const bool same_method = previous && previous->method == deformation.method;
   prepared->deformer =
       method_named(deformation.method)

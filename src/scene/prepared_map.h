@@ -31,7 +31,7 @@ class SharedInbetween {
 
 /// A domain mesh and a deformer on it. Immutable except for the deformer and `between`.
 struct PreparedMap {
-  Rest rest;  ///< with samples at the mesh's vertices; its own mesh may be a solving_mesh
+  Rest rest;  ///< with samples at the mesh's vertices; its own mesh may be a coarser solving_mesh
   std::string method;
   std::shared_ptr<const Mesh> mesh;
   std::unique_ptr<Deformer> deformer;

@@ -2,6 +2,7 @@
 #include "core/maps/deformer.h"
 #include "core/maps/distortion.h"
 #include "core/maps/method.h"
+#include "core/mesh/divided.h"
 #include "core/mesh/mesher.h"
 #include "edit/visible_folds.h"
 #include "support/catch.h"
@@ -32,7 +33,7 @@ FarDrag random_drag(std::mt19937& random, bool photograph) {
   drag.rest.cage = polygon_cage(outline);
   drag.size = box_of(outline_of(drag.rest.cage).points).diagonal();
   drag.rest.mesh = std::make_shared<const Mesh>(domain_mesh(drag.rest.cage, {1000}));
-  drag.drawn = std::make_shared<const Mesh>(domain_mesh(drag.rest.cage, {6000}));
+  drag.drawn = std::make_shared<const Mesh>(divided(*drag.rest.mesh, 3));
   drag.rest.samples = drag.drawn->vertices;
   const auto uniform = [&](double from, double to) {
     return std::uniform_real_distribution<>(from, to)(random);
@@ -78,7 +79,7 @@ TEST_CASE("Far drags: pins give way before the picture is crushed or folds visib
       folded += !visible_folds(*drag.drawn, map.f, visible).empty();
     }
   CAPTURE(drags, folded, extreme);
-  CHECK(folded <= drags / 20);
+  CHECK(folded == 0);
   CHECK(extreme <= 1 + drags / 20);
 }
 

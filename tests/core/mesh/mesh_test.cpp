@@ -6,6 +6,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/geometry/orientation.h"
+#include "core/mesh/divided.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/seeds.h"
@@ -20,11 +21,10 @@ double triangle_area(const Mesh& mesh, const Triangle& t) {
                      mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-/// The properties of every domain mesh: positive triangles whose areas sum to the polygon's, one
-/// closed boundary with the polygon's length, every cage vertex among the vertices, and Euler's
+/// The properties of every mesh of a polygon: positive triangles whose areas sum to the polygon's,
+/// one closed boundary with the polygon's length, every cage vertex among the vertices, and Euler's
 /// formula.
-void check_partition(const Points& polygon, const MeshOptions& options) {
-  const Mesh mesh = domain_mesh(polygon, options);
+void check_partition(const Points& polygon, const Mesh& mesh) {
   double area = 0;
   for (const Triangle& t : mesh.triangles) {
     CHECK(triangle_area(mesh, t) > 0);
@@ -44,6 +44,11 @@ void check_partition(const Points& polygon, const MeshOptions& options) {
   CHECK(static_cast<long>(mesh.vertices.size()) - static_cast<long>(edges.size()) +
             static_cast<long>(mesh.triangles.size()) ==
         1);
+}
+
+void check_partition(const Points& polygon, const MeshOptions& options) {
+  const Mesh mesh = domain_mesh(polygon, options);
+  check_partition(polygon, mesh);
   CHECK(mesh.vertices.size() <= static_cast<size_t>(3 * options.vertices + 4 * polygon.size()));
 }
 
@@ -57,6 +62,36 @@ TEST_CASE("The domain mesh partitions ordinary polygons with about the target nu
     CHECK(count > 2600);
     CHECK(count < 5600);
   }
+}
+
+TEST_CASE(
+    "A divided mesh partitions the polygon, and its triangles lie in those of the whole mesh") {
+  for (const Points& polygon : {shapes::l_shape(), shapes::star(32, 0.2, 3)})
+    for (const int parts : {1, 2, 3, 5}) {
+      const Mesh whole = domain_mesh(polygon, {300}), mesh = divided(whole, parts);
+      check_partition(polygon, mesh);
+      CHECK(mesh.triangles.size() == static_cast<size_t>(parts * parts) * whole.triangles.size());
+      for (const Triangle& t : mesh.triangles) {
+        Complex center = 0;
+        for (const int v : t) center += mesh.vertices[v] / 3.0;
+        const auto around = locate(whole, whole.vertices, center);
+        REQUIRE(around);
+        for (const int v : t) {
+          const auto at = location_in(whole, whole.vertices, around->triangle,
+                                      center + (1 - 1e-9) * (mesh.vertices[v] - center));
+          CHECK(at);
+        }
+      }
+    }
+  // Holes and parts keep their loops.
+  Cage cage = polygon_cage(shapes::rectangle(300, 200));
+  add_hole(cage, polygon_cage(Points{{100, 50}, {200, 50}, {150, 150}}).segments);
+  const Mesh whole = domain_mesh(cage, {300}), mesh = divided(whole, 3);
+  REQUIRE(mesh.starts.size() == 1);
+  CHECK(mesh.boundary.size() == 3 * whole.boundary.size());
+  CHECK(mesh.starts[0] == 3 * whole.starts[0]);
+  CHECK(mesh.vertices[mesh.boundary[static_cast<size_t>(mesh.starts[0])]] ==
+        whole.vertices[whole.boundary[static_cast<size_t>(whole.starts[0])]]);
 }
 
 TEST_CASE("A caller's own triangles give the same mesh as the mesher's") {
