@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 #include <vector>
 
 #include "core/arithmetic.h"
@@ -220,10 +219,11 @@ bool CubicThirds::is_positive() const {
     coordinate = std::max({coordinate, std::abs(z_[k]), std::abs(thirds_[k](3, 0))});
     side = std::min(side, std::abs(z_[(k + 1) % 3] - z_[k]));
   }
-  return std::ranges::all_of(std::views::iota(size_t{0}, size_t{3}), [&](size_t k) {
-    return holomorph::is_positive(slopes_of(thirds_[k], corners_of(k)),
-                                  kRounding * coordinate / side, kDepth);
-  });
+  for (size_t k = 0; k < 3; ++k)
+    if (!holomorph::is_positive(slopes_of(thirds_[k], corners_of(k)), kRounding * coordinate / side,
+                                kDepth))
+      return false;
+  return true;
 }
 
 void CubicThirds::straighten(const std::array<double, 3>& edges, double inside) {

@@ -17,7 +17,7 @@ Neighbors neighbors_of(const Mesh& mesh) {
         around[static_cast<size_t>(t[k])].push_back(t[other]);
   for (std::vector<int>& each : around) {
     std::ranges::sort(each);
-    each.erase(std::ranges::unique(each).begin(), each.end());
+    each.erase(std::unique(each.begin(), each.end()), each.end());
   }
   return around;
 }
@@ -31,7 +31,7 @@ std::vector<int> fitted(const Neighbors& around, int vertex) {
     for (const int next : around[static_cast<size_t>(near)])
       if (next != vertex) found.push_back(next);
   std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
