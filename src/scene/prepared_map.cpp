@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/clock.h"
-#include "core/mesh/divided.h"
+#include "core/mesh/subdivided.h"
 #include "scene/budget.h"
 #include "scene/solving_mesh.h"
 
@@ -38,13 +38,13 @@ bool differ(const std::vector<Depth>& depths) {
   return std::ranges::any_of(depths, [&](const Depth& d) { return d.depth != depths[0].depth; });
 }
 
-/// A mesh with about the wanted number of vertices, or more. Its triangles lie inside those of the
-/// other one, in which a map that does not fold is so smooth that they hardly ever flip.
-std::shared_ptr<const Mesh> divided_for(const std::shared_ptr<const Mesh>& mesh,
-                                        const MeshOptions& options) {
+/// A solving mesh, subdivided until it has at least half of options.vertices. In a small part of a
+/// triangle, a map without folds is nearly linear, so drawn triangles hardly ever flip.
+std::shared_ptr<const Mesh> subdivided_for(const std::shared_ptr<const Mesh>& mesh,
+                                           const MeshOptions& options) {
   const double finer = options.vertices / static_cast<double>(mesh->vertices.size());
-  const int parts = std::max(1, static_cast<int>(std::lround(std::sqrt(finer))));
-  return parts == 1 ? mesh : std::make_shared<const Mesh>(divided(*mesh, parts));
+  const int pieces = static_cast<int>(std::ceil(std::sqrt(finer) - 0.3));
+  return pieces <= 1 ? mesh : std::make_shared<const Mesh>(subdivided(*mesh, pieces));
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precis
     prepared->rest.mesh = previous->rest.mesh;
   } else if (smooths) {
     prepared->rest.mesh = std::make_shared<const Mesh>(solving_mesh(deformation.rest));
-    prepared->mesh = divided_for(prepared->rest.mesh, options);
+    prepared->mesh = subdivided_for(prepared->rest.mesh, options);
   } else {
     prepared->mesh = std::make_shared<const Mesh>(domain_mesh(deformation.rest, options));
     prepared->rest.mesh = prepared->mesh;

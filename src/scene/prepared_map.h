@@ -60,8 +60,9 @@ std::vector<Depth> depths_of(const Deformation& deformation);
 std::shared_ptr<const Mesh> drawn_mesh(std::shared_ptr<const Mesh> mesh,
                                        const Deformation& deformation);
 
-/// Prepares a map synchronously on the calling thread. If `previous` has the same cage, its mesh is
-/// reused. If it has the same method, its precomputation is reused where possible. Throws Error.
+/// Prepares a map synchronously on the calling thread. If `previous` has the same cage, and its
+/// method's maps are as smooth between vertices, its meshes are reused. If it has the same method,
+/// its precomputation is reused where possible. Throws Error.
 std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precision precision,
                                           const MeshOptions& options,
                                           const PreparedMap* previous = nullptr);

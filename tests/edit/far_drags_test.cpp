@@ -1,10 +1,8 @@
 // Pins that are dragged farther than the picture can follow give way.
-#include "core/maps/deformer.h"
+#include "core/cauchy/cauchy.h"
 #include "core/maps/distortion.h"
-#include "core/maps/method.h"
-#include "core/mesh/divided.h"
-#include "core/mesh/mesher.h"
 #include "edit/visible_folds.h"
+#include "scene/prepared_map.h"
 #include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
@@ -13,49 +11,44 @@ namespace holomorph::far_drags_test {
 
 namespace {
 
-struct FarDrag {
-  Rest rest;
-  Pose pose;
-  std::shared_ptr<const Mesh> drawn;
-  double size = 1;
-};
-
 /// A photograph in its frame, or a shape, whose pins are dragged by up to its size.
-FarDrag random_drag(std::mt19937& random, bool photograph) {
-  FarDrag drag;
-  Points outline = shapes::rectangle(1600, 1000);
-  if (!photograph) {
-    outline = random() % 2 == 0 ? shapes::l_shape()
-                                : shapes::star(5 + static_cast<int>(random() % 6), 0.5, random());
-    const double scale = 2000 / box_of(outline).diagonal();
-    for (Complex& z : outline) z *= scale;
-  }
-  drag.rest.cage = polygon_cage(outline);
-  drag.size = box_of(outline_of(drag.rest.cage).points).diagonal();
-  drag.rest.mesh = std::make_shared<const Mesh>(domain_mesh(drag.rest.cage, {1000}));
-  drag.drawn = std::make_shared<const Mesh>(divided(*drag.rest.mesh, 3));
-  drag.rest.samples = drag.drawn->vertices;
+Deformation random_drag(std::mt19937& random, bool photograph) {
   const auto uniform = [&](double from, double to) {
     return std::uniform_real_distribution<>(from, to)(random);
   };
-  for (size_t pins = 1 + random() % 5; pins > 0; --pins) {
-    const Complex z = drag.drawn->vertices[random() % drag.drawn->vertices.size()];
-    const auto is_near = [&](const RestPin& pin) {
-      return std::abs(pin.position - z) < 0.05 * drag.size;
-    };
-    if (std::ranges::none_of(drag.rest.pins, is_near)) drag.rest.pins.push_back({z});
+  Points outline = shapes::rectangle(1600, 1000);
+  if (!photograph) {
+    const bool bent = random() % 2 == 0;
+    const int tips = 5 + static_cast<int>(random() % 6);
+    outline = bent ? shapes::l_shape() : shapes::star(tips, 0.5, random());
+    const double scale = 2000 / box_of(outline).diagonal();
+    for (Complex& z : outline) z *= scale;
   }
-  drag.rest.pins[0].has_frame = random() % 3 == 0;
+  Deformation drag;
+  drag.method = "sheet";
+  drag.rest = drag.pose = polygon_cage(outline);
+  const Box box = box_of(outline);
+  const double size = box.diagonal();
+  const size_t pins = 1 + random() % 5;
+  for (int tries = 0; drag.pins.size() < pins && tries < 1000; ++tries) {
+    const double x = uniform(box.left, box.right), y = uniform(box.bottom, box.top);
+    const Complex z(x, y);
+    const bool is_near = std::ranges::any_of(
+        drag.pins, [&](const Pin& pin) { return std::abs(pin.rest - z) < 0.05 * size; });
+    if (contains(drag.rest, z) && !is_near) drag.pins.push_back({z, z, {}, {}});
+  }
+  for (size_t i = random() % drag.pins.size() + 1; i > 0; --i) {
+    const double far = uniform(0, size), direction = uniform(0, 2 * kPi);
+    drag.pins[i - 1].pose += std::polar(far, direction);
+  }
+  if (random() % 3 == 0) {
+    drag.pins[0].angle = uniform(-2, 2);
+    drag.pins[0].scale = uniform(0.3, 2.5);
+  }
   if (photograph) {
-    drag.rest.frame = Frame::slide;
-    if (random() % 2 == 0) drag.rest.held_beyond = uniform(0.1, 0.5) * drag.size;
+    drag.frame = Frame::slide;
+    if (random() % 2 == 0) drag.held_beyond = uniform(0.1, 0.5) * size;
   }
-  drag.pose.cage = drag.rest.cage;
-  for (const RestPin& pin : drag.rest.pins) drag.pose.pins.push_back({pin.position});
-  for (size_t i = random() % drag.pose.pins.size() + 1; i > 0; --i)
-    drag.pose.pins[i - 1].position += std::polar(uniform(0, 1) * drag.size, uniform(0, 2 * kPi));
-  if (drag.rest.pins[0].has_frame)
-    drag.pose.pins[0].angle = uniform(-2, 2), drag.pose.pins[0].scale = uniform(0.3, 2.5);
   return drag;
 }
 
@@ -66,20 +59,21 @@ TEST_CASE("Far drags: pins give way before the picture is crushed or folds visib
   for (const bool photograph : {true, false})
     for (const unsigned seed : seeds_of("far drags", {1, 2, 3, 4, 5, 6})) {
       std::mt19937 random(seed);
-      const FarDrag drag = random_drag(random, photograph);
+      const Deformation drag = random_drag(random, photograph);
       CAPTURE(photograph, seed);
-      const auto deformer = method_named("sheet").prepare(drag.rest, nullptr);
-      const SampledMap map = deformer->deform(drag.pose, {});
+      const auto prepared = prepared_map(drag, Precision::single, {});
+      const SampledMap map = prepared->deformer->deform(pose_of(drag), {.derivatives = false});
       CHECK(map.status == SampledMap::Status::certified);
       REQUIRE(map.extremes);
       ++drags;
-      extreme += map.extremes->largest > 10 || map.extremes->smallest < 0.01;
-      // Drawn triangles are straight, so that a few may flip where a proved map bends sharply.
-      const std::vector<char> visible(drag.drawn->triangles.size(), 1);
-      folded += !visible_folds(*drag.drawn, map.f, visible).empty();
+      extreme += map.extremes->largest > 10 || map.extremes->smallest < 0.0005;
+      const Mesh& drawn = *prepared->mesh;
+      CHECK(drawn.vertices.size() > 4000);
+      folded += !visible_folds(drawn, map.f, std::vector<char>(drawn.triangles.size(), 1)).empty();
     }
   CAPTURE(drags, folded, extreme);
-  CHECK(folded == 0);
+  // Half of the drags would stretch something more than tenfold if the pins were exact.
+  CHECK(folded <= drags / 100);
   CHECK(extreme <= 1 + drags / 20);
 }
 

@@ -680,4 +680,20 @@ TEST_CASE("Samples of an earlier release keep their methods, parameters and hand
   }
 }
 
+TEST_CASE("The schema names all parameters of all methods, with their ranges") {
+  const auto schema =
+      nlohmann::ordered_json::parse(read_file(HOLOMORPH_SOURCE "/schema/scene.schema.json"));
+  const std::string text = schema.dump();
+  for (const Method& method : methods()) {
+    // The part of the schema that is about this method.
+    const size_t at = text.find("\"const\":\"" + method.id + "\"");
+    if (at == std::string::npos) continue;  // it has no parameters, or shares a part
+    const std::string part = text.substr(at, text.find("additionalProperties", at) - at);
+    for (const ParameterSpec& spec : method.parameters) {
+      CAPTURE(method.id, spec.key);
+      CHECK(part.find("\"" + spec.key + "\":") != std::string::npos);
+    }
+  }
+}
+
 }  // namespace holomorph::scene_test

@@ -7,6 +7,7 @@
 #include "core/mesh/split_chords.h"
 #include "core/methods/sheet_solver.h"
 #include "core/sheet/half_width.h"
+#include "scene/prepared_map.h"
 #include "support/catch.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"
@@ -130,6 +131,33 @@ TEST_CASE("Splitting chords leaves a mesh of the same polygon") {
   CHECK(split.vertices.size() == 9);
   CHECK(split.triangles.size() == 10);
   CHECK(area_of(split) == Approx(area_of(strip)));
+}
+
+TEST_CASE("Solving mesh: another method brings its own mesh, and going back finds the same map") {
+  Deformation deformation;
+  deformation.rest = deformation.pose = polygon_cage(shapes::rectangle(600, 400));
+  for (const auto& [from, to] :
+       {std::pair<Complex, Complex>{{100, 200}, {100, 200}}, {{450, 220}, {520, 300}}})
+    deformation.pins.push_back({from, to, {}, {}});
+  std::unique_ptr<PreparedMap> prepared;
+  std::vector<VectorXc> maps;
+  for (const char* method : {"sheet", "puppet", "sheet"}) {
+    deformation.method = method;
+    prepared = prepared_map(deformation, Precision::single, {}, prepared.get());
+    CAPTURE(method);
+    const bool smooths = method_named(method).smooths_mesh;
+    CHECK((prepared->rest.mesh == prepared->mesh) == !smooths);
+    CHECK(prepared->rest.samples == prepared->mesh->vertices);
+    CHECK(prepared->mesh->vertices.size() > 4000);
+    if (smooths) CHECK(prepared->rest.mesh->vertices.size() < 4000);
+    maps.push_back(prepared->deformer->deform(pose_of(deformation), {}).f);
+  }
+  CHECK(maps[0] == maps[2]);
+  // A new pin keeps both meshes.
+  deformation.pins.push_back({{300, 100}, {300, 100}, {}, {}});
+  const auto more = prepared_map(deformation, Precision::single, {}, prepared.get());
+  CHECK(more->mesh == prepared->mesh);
+  CHECK(more->rest.mesh == prepared->rest.mesh);
 }
 
 }  // namespace holomorph::solving_mesh_test

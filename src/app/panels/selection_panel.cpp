@@ -63,6 +63,13 @@ void corner_rows(Workspace& workspace, Index vertex) {
       "Tension", [&](const Deformation& s) { return with_tension(s, vertex, tension / 100); });
 }
 
+/// Whether pins give way where they would stretch the picture too far.
+bool has_stretch_limit(const Deformation& deformation) {
+  const Method& method = chosen_method(deformation);
+  const auto spec = std::ranges::find(method.parameters, "stretch_limit", &ParameterSpec::key);
+  return spec != method.parameters.end() && is_used(method, chosen_parameters(deformation), *spec);
+}
+
 /// If the gap is visible, says how far short of the pin's target the picture stops.
 void pin_gap(const Workspace& workspace, Index pin) {
   const Deformation& deformation = workspace.shown.deformation();
@@ -75,7 +82,7 @@ void pin_gap(const Workspace& workspace, Index pin) {
                 gap < 10 ? "The picture stops %.1f px short." : "The picture stops %.0f px short.",
                 gap);
   colored_text(theme_colors().warning, text);
-  if (workspace.map().map().note.find("stretch limit") != std::string::npos)
+  if (has_stretch_limit(deformation))
     caption("The pin gives way at the stretch limit. Exact pins do not.");
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
+#include <numeric>
 #include <utility>
 
 #include "core/arithmetic.h"
@@ -58,8 +58,7 @@ namespace {
 
 /// A point of these triangles at which two maps agree. If there is none, the vertex whose two
 /// images are closest to each other.
-template <class Triangles>
-Location least_moving_among(const Triangles& triangles, const Mesh& mesh, const VectorXc& a,
+Location least_moving_among(const std::vector<int>& triangles, const Mesh& mesh, const VectorXc& a,
                             const VectorXc& b) {
   Location best;
   double least = INFINITY;
@@ -155,7 +154,8 @@ VectorXc Inbetween::slopes(const Shape* before, const Shape& here, const Shape* 
 }
 
 void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
-  const auto& [a, b, duration, slopes_a, slopes_b, still] = interval;
+  const auto& [from, to, duration, slopes_a, slopes_b, still] = interval;
+  const Shape &a = from, &b = to;  // Clang 14 does not capture structured bindings
   if (u <= 0 || u >= 1) {
     f = u <= 0 ? a.f : b.f;
     return;
@@ -199,8 +199,9 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
 }
 
 Location least_moving_point(const Mesh& mesh, const VectorXc& a, const VectorXc& b) {
-  return least_moving_among(std::views::iota(0, static_cast<int>(mesh.triangles.size())), mesh, a,
-                            b);
+  std::vector<int> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  return least_moving_among(all, mesh, a, b);
 }
 
 }  // namespace holomorph

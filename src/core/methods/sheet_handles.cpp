@@ -32,21 +32,23 @@ SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, const Sh
   if (rest.held_beyond && !pins().empty()) hold_beyond(*rest.held_beyond);
 }
 
-/// With the strength F, a pin at the tip of a limb with the half width h stretches it by F A / (2 h
-/// s), where s is the stiffness. Inside, pins act on both sides, and pull twice as hard.
+/// At a distance from both sides of a limb that equals its half width h, the force F stretches the
+/// limb to about F A / (2 h s) times its length, where s is the stiffness. Pins at an edge pull
+/// half as hard.
 Spring SheetHandles::usual_spring(const Rest& rest, size_t row, const SheetEnergy& energy,
                                   const Settings& settings) const {
   const double weight = settings.pin_weight / (domain_.size * domain_.size);
   if (moves_cage())
     return {kCagePull * weight * handles_.isometric().weights[static_cast<Index>(row)]};
-  if (!settings.most_stretch) return {weight};
+  if (!settings.stretch_limit) return {weight};
   constexpr double kNarrowest = 0.05;  // of the size; a tip still turns its limb
   constexpr double kFar = 0.1;         // of the force, added where a pin misses by the size
   const Complex z = stations()[row];
   double width = std::max(domain_.width.at(z), kNarrowest * domain_.size);
-  if (row < pins().size()) width = std::max(width, rest.pins[pins()[row]].radius.value_or(0));
+  if (row < pins().size() && rest.pins[pins()[row]].has_frame)
+    width = std::max(width, rest.pins[pins()[row]].radius.value_or(0));
   const double depth = nearest_on_polygon(outline_of(rest.cage), z).distance,
-               force = 2 * *settings.most_stretch * (width + depth) *
+               force = *settings.stretch_limit * (width + depth) *
                        std::pow(10, stiffness_level(rest.stiffness, z)) / energy.stiff_area();
   return {weight, 1 / force, kFar * force / (2 * domain_.size)};
 }
@@ -157,8 +159,8 @@ Points SheetHandles::straight(const Target& target, double part) const {
   return at;
 }
 
-/// Pins that stay near rest hold more firmly than those that go far, so that a hand that is pulled
-/// off does not take the feet with it.
+/// Pins that stay near rest hold more firmly than those that go far. Otherwise, a hand that is
+/// pulled away would take the feet with it.
 Spring SheetHandles::spring(size_t row, const Target& target) const {
   constexpr double kFirmer = 3, kNear = 0.05;  // of the size
   const double moved =
@@ -174,8 +176,8 @@ SheetPull SheetHandles::pull(const Target& target, const Points& at, double part
   for (size_t row = 0; row < at.size(); ++row) pull.rows.push_back({at[row], spring(row, target)});
   const auto turn_around = [&](size_t row, Complex by, double strength) {
     constexpr double kForce = 2;  // turning takes more of it than pulling
-    Spring whole = kDiskPull * pull.rows[row].spring;
-    whole.inverse_force *= kDiskPull / kForce;
+    const Spring& own = pull.rows[row].spring;
+    const Spring whole{kDiskPull * own.weight, own.inverse_force / kForce, kForce * own.far_weight};
     for (const auto& [v, share] : guides_[row]) {
       const Complex arm = mesh_->vertices[static_cast<size_t>(v)] - stations()[row];
       pull.vertices.push_back({v, pull.rows[row].target + by * arm, strength * share * whole});

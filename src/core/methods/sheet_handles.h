@@ -14,9 +14,9 @@ class SheetHandles {
  public:
   struct Settings {
     double pin_weight = 0;  ///< per squared distance in units of the picture's size
-    /// Pins and strokes give way where they would stretch a limb farther than this. None: they do
-    /// not.
-    std::optional<double> most_stretch;
+    /// Pins and the points of strokes give way where they would stretch a limb to more than about
+    /// this many times its length. None: they never do.
+    std::optional<double> stretch_limit;
   };
   SheetHandles(const Rest& rest, const SheetDomain& domain, const SheetEnergy& energy,
                const Settings& settings);

@@ -1,6 +1,6 @@
-// At a key, the pins miss their targets by as much as the sheet pulls at them. In between, they
-// miss the images that the blended map gives them by blended amounts, so that motion begins and
-// ends at the maps of the keys.
+// At a key, the forces of the handles balance those of the sheet. In between, handles pull at the
+// images that the blended map gives them with blended forces, so that motion begins and ends at the
+// maps of the keys.
 #include "core/methods/sheet_motion.h"
 
 #include <cmath>
@@ -68,25 +68,28 @@ class SheetInterval final : public MotionInterval {
 
   SheetPull blended_pull(double u, const VectorXc& f) const {
     const SheetKey &from = *keys_[1], &to = *keys_[2];
-    const auto missed = [&](const auto& off) { return (1 - u) * off(from) + u * off(to); };
+    const auto force = [](const Spring& spring, Complex off) {
+      return spring.slope(std::norm(off)) * off;
+    };
     SheetPull pull = from.pull;
     for (size_t row = 0; row < pull.rows.size(); ++row) {
-      if (row < met_.size() && met_[row] != 0 &&
-          from.pull.rows[row].target == to.pull.rows[row].target)
-        continue;
-      const auto off = [&](const SheetKey& key) {
-        return key.pull.rows[row].target - solver().handles().image(row, key.shape.f);
+      auto& [target, spring] = pull.rows[row];
+      if (row < met_.size() && met_[row] != 0 && target == to.pull.rows[row].target) continue;
+      const auto at = [&](const SheetKey& key) {
+        const SheetPull::Row& there = key.pull.rows[row];
+        return force(there.spring, there.target - solver().handles().image(row, key.shape.f));
       };
-      pull.rows[row].spring = between(from.pull.rows[row].spring, to.pull.rows[row].spring, u);
-      pull.rows[row].target = solver().handles().image(row, f) + missed(off);
+      spring = spring.firm();
+      target = solver().handles().image(row, f) + ((1 - u) * at(from) + u * at(to)) / spring.weight;
     }
     for (size_t k = 0; k < pull.vertices.size(); ++k) {
-      VertexPull& at = pull.vertices[k];
-      const auto off = [&](const SheetKey& key) {
-        return key.pull.vertices[k].target - key.shape.f[at.vertex];
+      auto& [vertex, target, spring] = pull.vertices[k];
+      const auto at = [&, v = vertex](const SheetKey& key) {
+        const VertexPull& there = key.pull.vertices[k];
+        return force(there.spring, there.target - key.shape.f[v]);
       };
-      at.spring = between(at.spring, to.pull.vertices[k].spring, u);
-      at.target = f[at.vertex] + missed(off);
+      spring = spring.firm();
+      target = f[vertex] + ((1 - u) * at(from) + u * at(to)) / spring.weight;
     }
     return pull;
   }

@@ -12,7 +12,7 @@ namespace {
 SheetSolver::Settings settings_of(const Rest& rest) {
   const Method& method = method_named("sheet");
   const auto value = [&](const char* key) { return parameter(method, rest.parameters, key); };
-  return {value("roundness"), value("pin_weight"), value("most_stretch"), value("exact") != 0};
+  return {value("roundness"), value("pin_weight"), value("stretch_limit"), value("exact") != 0};
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::shared_ptr<const SheetEnergy> energy_of(const Rest& rest, const SheetDomain
 
 SheetHandles::Settings handle_settings(const SheetSolver::Settings& settings) {
   SheetHandles::Settings out{settings.pin_weight, {}};
-  if (!settings.exact) out.most_stretch = settings.most_stretch;
+  if (!settings.exact) out.stretch_limit = settings.stretch_limit;
   return out;
 }
 

@@ -30,7 +30,7 @@ class SheetSolver {
  public:
   /// Parts that `previous` has in common are shared; it may be null.
   struct Settings {
-    double roundness = 0.5, pin_weight = 1e5, most_stretch = 3;
+    double roundness = 0.5, pin_weight = 1e5, stretch_limit = 6;
     bool exact = false;
     bool operator==(const Settings&) const = default;
   };

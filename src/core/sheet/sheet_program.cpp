@@ -27,20 +27,21 @@ int slot_of(const Matrix& matrix, Index i, Index j) {
   return static_cast<int>(found - matrix.innerIndexPtr());
 }
 
-/// Calls visit(i, j, part, block) for the entries of a row's Hessian, which is `part` times the
-/// entry 0 to 3 of a 2 x 2 block.
+/// Calls visit(i, j, part, block) for the entries in the lower triangle of a row's Hessian, which
+/// are `part` times the entry 0 to 3 of a 2 x 2 block.
 void for_entries(const SheetRow& row, auto&& visit) {
   for (const auto& [v, a] : row.terms)
     for (const auto& [w, b] : row.terms)
-      for (int k = 0; k < 4; ++k) visit(2 * v + k / 2, 2 * w + k % 2, a * b, k);
+      for (int k = 0; k < 4; ++k)
+        if (const Index i = 2 * v + k / 2, j = 2 * w + k % 2; i >= j) visit(i, j, a * b, k);
 }
 
 Eigen::Vector2d vector(Complex z) {
   return {z.real(), z.imag()};
 }
 
-/// Derivatives of a spring that misses its target by `off`. `projected`: a semidefinite matrix that
-/// bounds the second derivatives, so that steps cannot overshoot.
+/// Derivatives of the energy E of a spring that misses its target by `off`. `projected`: the
+/// Hessian of the quadratic function that touches E from above, since E is concave in r^2.
 Eigen::Vector2d gradient_of(const Spring& spring, Complex off) {
   return 2 * spring.slope(std::norm(off)) * vector(off);
 }
@@ -95,7 +96,7 @@ SheetProgram::SheetProgram(std::shared_ptr<const SheetEnergy> energy, SheetHolds
   for (const SheetRow& row : holds_.rows) {
     std::vector<int>& slots = row_slots_.emplace_back();
     for_entries(row, [&](Index i, Index j, double, int) {
-      slots.push_back(i < j || is_fixed(i) || is_fixed(j) ? -1 : slot_of(constant_, i, j));
+      slots.push_back(is_fixed(i) || is_fixed(j) ? -1 : slot_of(constant_, i, j));
     });
   }
   factor_->matrix = constant_;

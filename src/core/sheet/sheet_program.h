@@ -63,7 +63,8 @@ class SheetProgram {
   };
   /// A Newton step from f, which must not have a flipped triangle, and does not have one
   /// afterwards: at most 0.9 of the way to the first flip, and halved until the value falls
-  /// (Armijo). With `projected`, the Hessians of triangles are made semidefinite, which is faster
+  /// (Armijo). With `projected`, the Hessians of triangles are made semidefinite, and those of
+  /// springs are replaced by larger ones, so that no step goes too far, which is faster
   /// far from the minimum. Without it, Newton's method converges quadratically; where the matrix is
   /// not definite, the step is as with it. Cost: one or two sparse factorizations.
   Step step(const SheetPull& pull, VectorXc& f, bool projected) const;

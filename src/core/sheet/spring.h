@@ -1,4 +1,4 @@
-// What it costs that a handle of a sheet misses its target.
+// The energy of a handle of a sheet that misses its target.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct Spring {
   double inverse_force = 0;  ///< 1 / F
   double far_weight = 0;     ///< v
 
-  /// One that does not give way.
+  /// The same spring without a limit.
   Spring firm() const { return {weight}; }
 
   double value(double squared) const {
@@ -37,13 +37,6 @@ struct Spring {
 /// A spring with a multiple of the energy.
 inline Spring operator*(double factor, const Spring& spring) {
   return {factor * spring.weight, spring.inverse_force / factor, factor * spring.far_weight};
-}
-
-/// The spring at a part of the way from one to another.
-inline Spring between(const Spring& from, const Spring& to, double part) {
-  const auto mix = [part](double a, double b) { return (1 - part) * a + part * b; };
-  return {mix(from.weight, to.weight), mix(from.inverse_force, to.inverse_force),
-          mix(from.far_weight, to.far_weight)};
 }
 
 }  // namespace holomorph

@@ -6,8 +6,8 @@
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
 #include "core/geometry/orientation.h"
-#include "core/mesh/divided.h"
 #include "core/mesh/mesher.h"
+#include "core/mesh/subdivided.h"
 #include "support/catch.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
@@ -65,12 +65,12 @@ TEST_CASE("The domain mesh partitions ordinary polygons with about the target nu
 }
 
 TEST_CASE(
-    "A divided mesh partitions the polygon, and its triangles lie in those of the whole mesh") {
+    "A subdivided mesh partitions the polygon, and its triangles lie in those of the whole mesh") {
   for (const Points& polygon : {shapes::l_shape(), shapes::star(32, 0.2, 3)})
-    for (const int parts : {1, 2, 3, 5}) {
-      const Mesh whole = domain_mesh(polygon, {300}), mesh = divided(whole, parts);
+    for (const int pieces : {1, 2, 3, 5}) {
+      const Mesh whole = domain_mesh(polygon, {300}), mesh = subdivided(whole, pieces);
       check_partition(polygon, mesh);
-      CHECK(mesh.triangles.size() == static_cast<size_t>(parts * parts) * whole.triangles.size());
+      CHECK(mesh.triangles.size() == static_cast<size_t>(pieces * pieces) * whole.triangles.size());
       for (const Triangle& t : mesh.triangles) {
         Complex center = 0;
         for (const int v : t) center += mesh.vertices[v] / 3.0;
@@ -86,12 +86,15 @@ TEST_CASE(
   // Holes and parts keep their loops.
   Cage cage = polygon_cage(shapes::rectangle(300, 200));
   add_hole(cage, polygon_cage(Points{{100, 50}, {200, 50}, {150, 150}}).segments);
-  const Mesh whole = domain_mesh(cage, {300}), mesh = divided(whole, 3);
+  const Mesh whole = domain_mesh(cage, {300}), mesh = subdivided(whole, 3);
   REQUIRE(mesh.starts.size() == 1);
   CHECK(mesh.boundary.size() == 3 * whole.boundary.size());
   CHECK(mesh.starts[0] == 3 * whole.starts[0]);
   CHECK(mesh.vertices[mesh.boundary[static_cast<size_t>(mesh.starts[0])]] ==
         whole.vertices[whole.boundary[static_cast<size_t>(whole.starts[0])]]);
+  const Mesh two = joined(std::vector<Mesh>{whole, domain_mesh(shapes::star(9, 0.3, 2), {200})});
+  CHECK(part_count(subdivided(two, 2)) == 2);
+  CHECK(subdivided(two, 2).triangles.size() == 4 * two.triangles.size());
 }
 
 TEST_CASE("A caller's own triangles give the same mesh as the mesher's") {

@@ -222,27 +222,64 @@ TEST_CASE("Sheet: turns choose among maps of one pose") {
 }
 
 TEST_CASE("Sheet: pins give way at the stretch limit, and those at rest hold") {
-  Rest rest = rest_of(polygon_cage(shapes::rectangle(800, 120)), {{40, 60}, {760, 60}}, 600);
+  Rest rest = rest_of(polygon_cage(shapes::rectangle(800, 120)), {{60, 60}, {740, 60}}, 600);
   Pose pose = at_rest(rest);
-  pose.pins[1].position += 12000;
-  std::vector<double> lengths;
-  for (const double limit : {1.5, 3.0, 6.0}) {
-    rest.parameters["most_stretch"] = limit;
+  for (const double limit : {2.0, 4.0, 8.0}) {
+    CAPTURE(limit);
+    rest.parameters["stretch_limit"] = limit;
+    pose.pins[1].position = {60 + 2 * limit * 680, 60};
     const auto deformer = prepared(rest);
     CHECK(deformer->deform(pose, {}).note.find("stretch limit") != std::string::npos);
     const auto points = deformer->point_map(pose);
-    CHECK(std::abs(points->at({40, 60}).f - pose.pins[0].position) < 1e-3 * size_of(rest));
-    lengths.push_back(std::abs(points->at({500, 60}).f - points->at({300, 60}).f) / 200);
-    // A pin that is not at the very end pulls up to twice as hard.
-    CHECK(lengths.back() > 0.9 * limit);
-    CHECK(lengths.back() < 4 * limit);
+    CHECK(std::abs(points->at({60, 60}).f - pose.pins[0].position) < 1e-3 * size_of(rest));
+    const double stretched = std::abs(points->at({500, 60}).f - points->at({300, 60}).f) / 200;
+    CHECK(stretched > limit);
+    CHECK(stretched < 1.7 * limit);  // with what is added far away
+    // A pull within the limit is followed.
+    pose.pins[1].position = {60 + 0.9 * limit * 680, 60};
+    CHECK(std::abs(deformer->point_map(pose)->at({740, 60}).f - pose.pins[1].position) <
+          1e-3 * size_of(rest));
   }
-  CHECK(lengths[0] < lengths[1]);
-  CHECK(lengths[1] < lengths[2]);
-  // A pull within the limit is followed.
-  pose.pins[1].position = {760 + 500, 60};
-  const auto points = prepared(rest)->point_map(pose);
-  CHECK(std::abs(points->at({760, 60}).f - pose.pins[1].position) < 1e-3 * size_of(rest));
+  // Exact pins do not give way, and a pin with a frame does.
+  pose.pins[1].position = {60 + 20 * 680, 60};
+  for (const bool exact : {false, true}) {
+    rest.parameters = {{"exact", exact}};
+    rest.pins[1].has_frame = !exact;
+    const double off =
+        std::abs(prepared(rest)->point_map(pose)->at({740, 60}).f - pose.pins[1].position);
+    if (exact)
+      CHECK(off < 1e-6 * size_of(rest));
+    else
+      CHECK(off > 0.1 * size_of(rest));
+  }
+}
+
+TEST_CASE("Sheet: a motion to a pin that gives way is spread over the whole interval") {
+  Rest rest = rest_of(polygon_cage(shapes::rectangle(800, 120)), {{60, 60}, {740, 60}}, 600);
+  const auto deformer = prepared(rest);
+  std::array<Pose, 2> poses{at_rest(rest), at_rest(rest)};
+  poses[1].pins[1].position = {60 + 20 * 680, 60};
+  std::vector<SampledMap> maps;
+  for (const Pose& pose : poses) maps.push_back(deformer->deform(pose, {}));
+  std::vector<MotionKey> keys;
+  for (size_t k = 0; k < 2; ++k)
+    keys.push_back({maps[k].solution, maps[k].extremes, &poses[k], &maps[k].f, 0, 1.0 * k});
+  const auto interval = deformer->motion()->interval(nullptr, keys[0], keys[1], nullptr, false);
+  REQUIRE(interval);
+  const Location pin = locate_near(*rest.mesh, rest.pins[1].position);
+  const auto image = [&](const SampledMap& map) { return pin.in(*rest.mesh, as_span(map.f)); };
+  const double whole = std::abs(image(maps[1]) - image(maps[0]));
+  CHECK(whole > 1000);
+  double last = 0;
+  for (const double u : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const SampledMap map = interval->at(u, true);
+    CHECK(map.status == SampledMap::Status::certified);
+    const double way = std::abs(image(map) - image(maps[0])) / whole;
+    CAPTURE(u, way);
+    CHECK(way > last);
+    CHECK(std::abs(way - u) < 0.3);  // sizes are blended geometrically
+    last = way;
+  }
 }
 
 TEST_CASE("Sheet: painted parts change less") {
