@@ -88,6 +88,9 @@ class ProductWindowTest(WindowCase):
             self.screenshot(editor, "more-methods")
             editor.press_item("As rigid as possible")
             editor.wait(lambda s: s["method"] == "arap", "a method from the list")
+            editor.press_item("More methods")
+            editor.press_item("Harmonic puppet")
+            editor.wait(lambda s: s["method"] == "puppet", "the puppet of earlier releases")
             self.assertIn("Puppet", editor.state()["items"], "the section stays open")
 
     def test_panels_stay_in_place(self):

@@ -46,7 +46,9 @@ DisplayedParameter displayed(const ParameterSpec& spec, double value) {
   };
   if (spec.logarithmic)
     return {std::round(10 * along(value)) / 10, {0, 100, "", 0, false, along(spec.fallback)}};
-  return {value, {spec.lowest, spec.highest, "", 0, false, spec.fallback}};
+  constexpr double kWide = 10;  // a range whose values need no decimals
+  const int decimals = spec.highest - spec.lowest < kWide ? 2 : 0;
+  return {value, {spec.lowest, spec.highest, "", decimals, false, spec.fallback}};
 }
 
 double parameter_of(const ParameterSpec& spec, double displayed) {

@@ -22,14 +22,14 @@ constexpr const char* kCards[] = {"sheet", "pins", "cage"};
 
 /// Methods that a tool switches to, and the one behind the switch, are not in the list.
 bool is_listed(const Method& method) {
-  return !has_card(method.id) && !method.uses_strokes && !method.uses_outline &&
-         !method.uses_corners;
+  const bool draws_strokes = method.uses_strokes && !method.pins_replace_cage;
+  return !has_card(method.id) && !draws_strokes && !method.uses_outline && !method.uses_corners;
 }
 
 /// A row of the list under "More": picture, name and summary.
 bool method_row(const Method& method, bool chosen) {
   const ThemeColors& c = theme_colors();
-  const ImVec2 at = ImGui::GetCursorScreenPos(), size(px(320), px(56));
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size(px(440), px(56));
   const bool clicked = ImGui::Selectable(("##" + method.id).c_str(), chosen, 0, size);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_method_picture(list, method.id, at + ImVec2(px(32), size.y / 2), 0.8f, c.control, c.raised);

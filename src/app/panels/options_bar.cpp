@@ -99,19 +99,19 @@ void add_pin_fit(OptionGroups& groups, Workspace& workspace) {
                                              *clicked ? 1.0 : 0.0));
          }});
   if (weight)
-    groups.push_back(
-        {"stiffness", [&workspace, &method, weight, value] {
-           ImGui::BeginDisabled(
-               !is_used(method, chosen_parameters(workspace.shown.deformation()), *weight));
-           inline_label("Stiffness", "How closely the picture follows the pins");
-           DisplayedParameter shown = displayed(*weight, value(*weight));
-           const Change change = slider("##Stiffness", shown.value, shown.number, px(148));
-           apply_change(workspace, change, "Pin stiffness", [&](const Deformation& base) {
-             return with_parameter(base, method.id, weight->key,
-                                   parameter_of(*weight, shown.value));
-           });
-           ImGui::EndDisabled();
-         }});
+    groups.push_back({"stiffness", [&workspace, &method, weight, value] {
+                        ImGui::BeginDisabled(!is_used(
+                            method, chosen_parameters(workspace.shown.deformation()), *weight));
+                        inline_label("Pin weight", "How closely the picture follows the pins");
+                        DisplayedParameter shown = displayed(*weight, value(*weight));
+                        const Change change =
+                            slider("##Pin weight", shown.value, shown.number, px(148));
+                        apply_change(workspace, change, "Pin weight", [&](const Deformation& base) {
+                          return with_parameter(base, method.id, weight->key,
+                                                parameter_of(*weight, shown.value));
+                        });
+                        ImGui::EndDisabled();
+                      }});
 }
 
 void set_rotation(Workspace& workspace, const std::vector<Index>& pins, bool fixed) {

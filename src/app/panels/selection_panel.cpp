@@ -77,13 +77,15 @@ void pin_gap(const Workspace& workspace, Index pin) {
   if (!reached) return;
   const double gap = std::abs(*reached - deformation.pins[pin].pose);
   if (gap * workspace.layer_view().zoom <= 1) return;
+  const bool limited = has_stretch_limit(deformation);
   char text[80];
-  std::snprintf(text, sizeof text,
-                gap < 10 ? "The picture stops %.1f px short." : "The picture stops %.0f px short.",
-                gap);
+  std::snprintf(text, sizeof text, "%s %.*f px short%s", limited ? "Stops" : "The picture stops",
+                gap < 10 ? 1 : 0, gap, limited ? ", at the stretch limit." : ".");
   colored_text(theme_colors().warning, text);
-  if (has_stretch_limit(deformation))
-    caption("The pin gives way at the stretch limit. Exact pins do not.");
+  if (limited)
+    tooltip(
+        "The pin gives way rather than stretch the picture farther. Stretch limit is in the "
+        "settings of the method.");
 }
 
 void pin_rows(Workspace& workspace, Index pin) {

@@ -263,7 +263,7 @@ Method puppet_method() {
   return {
       .id = "puppet",
       .label = "Harmonic puppet",
-      .summary = "Keeps sizes. Good for animals and people.",
+      .summary = "Keeps sizes. Moves the shape as a whole.",
       .hint =
           "Pins move parts of the picture. Sizes and shapes are kept as far as possible, and "
           "nothing folds. Paint stiffness (B) on parts that should change least. Without pins, "

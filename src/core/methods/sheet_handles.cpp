@@ -40,7 +40,6 @@ Spring SheetHandles::usual_spring(const Rest& rest, size_t row, const SheetEnerg
   const double weight = settings.pin_weight / (domain_.size * domain_.size);
   if (moves_cage())
     return {kCagePull * weight * handles_.isometric().weights[static_cast<Index>(row)]};
-  if (!settings.stretch_limit) return {weight};
   constexpr double kNarrowest = 0.05;  // of the size; a tip still turns its limb
   constexpr double kFar = 0.1;         // of the force, added where a pin misses by the size
   const Complex z = stations()[row];
@@ -48,7 +47,7 @@ Spring SheetHandles::usual_spring(const Rest& rest, size_t row, const SheetEnerg
   if (row < pins().size() && rest.pins[pins()[row]].has_frame)
     width = std::max(width, rest.pins[pins()[row]].radius.value_or(0));
   const double depth = nearest_on_polygon(outline_of(rest.cage), z).distance,
-               force = *settings.stretch_limit * (width + depth) *
+               force = settings.stretch_limit * (width + depth) *
                        std::pow(10, stiffness_level(rest.stiffness, z)) / energy.stiff_area();
   return {weight, 1 / force, kFar * force / (2 * domain_.size)};
 }
@@ -173,7 +172,9 @@ Spring SheetHandles::spring(size_t row, const Target& target) const {
 SheetPull SheetHandles::pull(const Target& target, const Points& at, double part,
                              double guide) const {
   SheetPull pull;
-  for (size_t row = 0; row < at.size(); ++row) pull.rows.push_back({at[row], spring(row, target)});
+  // On the way, nothing gives way, or the turns would be lost.
+  for (size_t row = 0; row < at.size(); ++row)
+    pull.rows.push_back({at[row], guide > 0 ? springs_[row].firm() : spring(row, target)});
   const auto turn_around = [&](size_t row, Complex by, double strength) {
     constexpr double kForce = 2;  // turning takes more of it than pulling
     const Spring& own = pull.rows[row].spring;

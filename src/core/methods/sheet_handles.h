@@ -15,8 +15,8 @@ class SheetHandles {
   struct Settings {
     double pin_weight = 0;  ///< per squared distance in units of the picture's size
     /// Pins and the points of strokes give way where they would stretch a limb to more than about
-    /// this many times its length. None: they never do.
-    std::optional<double> stretch_limit;
+    /// this many times its length.
+    double stretch_limit = 0;
   };
   SheetHandles(const Rest& rest, const SheetDomain& domain, const SheetEnergy& energy,
                const Settings& settings);

@@ -7,6 +7,7 @@
 
 #include "core/maps/distortion.h"
 #include "core/mesh/inbetween.h"
+#include "core/sheet/fixed_coordinates.h"
 
 namespace holomorph {
 namespace {
@@ -16,6 +17,7 @@ struct SheetSetting {
   std::shared_ptr<const SheetSolver> solver;
   std::vector<Location> places;
   std::shared_ptr<const Inbetween> between;
+  std::shared_ptr<const FixedCoordinates> frame;
 };
 
 struct SheetKey {
@@ -46,6 +48,7 @@ class SheetInterval final : public MotionInterval {
                                        &still_};
     VectorXc f;
     setting_->between->blend(interval, u, f);
+    setting_->frame->restore(f);
     const SheetPull pull = blended_pull(u, f);
     if (flipped_triangles(mesh(), f) > 0) f = (u < 0.5 ? keys_[1] : keys_[2])->shape.f;
     const ProvedSheet sheet(solver(), solver().relaxed(pull, met_, std::move(f)));
@@ -115,21 +118,21 @@ class SheetMotion final : public ProvedMotion {
     std::vector<char> met;
     const SheetSolver& solver = *setting_->solver;
     for (size_t i = 0; i < solver.handles().pins().size(); ++i)
-      met.push_back(solver.settings().exact || holds(*keys[1], *keys[2], i));
+      met.push_back(is_met(*keys[1], *keys[2], i));
     return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(met));
   }
 
  private:
-  /// Whether a pin is at its target, the same one, at both keys.
-  bool holds(const SheetKey& from, const SheetKey& to, size_t pin) const {
+  /// Whether a pin is at its target at both keys, and meets it in between.
+  bool is_met(const SheetKey& from, const SheetKey& to, size_t pin) const {
     constexpr double kMet = 1e-3;  // of the size
     const SheetSolver& solver = *setting_->solver;
-    const Complex target = from.pull.rows[pin].target;
-    return target == to.pull.rows[pin].target &&
-           std::ranges::all_of(std::array{&from, &to}, [&](const SheetKey* key) {
-             return std::abs(solver.handles().image(pin, key->shape.f) - target) <=
-                    kMet * solver.domain().size;
-           });
+    const auto is_at = [&](const SheetKey& key, Complex target) {
+      const Complex image = solver.handles().image(pin, key.shape.f);
+      return std::abs(image - target) <= kMet * solver.domain().size;
+    };
+    const Complex first = from.pull.rows[pin].target, last = to.pull.rows[pin].target;
+    return is_at(from, first) && is_at(to, last) && (first == last || solver.settings().exact);
   }
   /// None if the key is not certified.
   std::optional<SheetKey> key_of(const MotionKey* key) const {
@@ -151,9 +154,11 @@ class SheetMotion final : public ProvedMotion {
 
 std::shared_ptr<const ProvedMotion> sheet_motion(std::shared_ptr<const SheetSolver> solver,
                                                  std::vector<Location> places) {
-  auto between = std::make_shared<const Inbetween>(solver->domain().mesh);
+  const std::shared_ptr<const Mesh>& mesh = solver->domain().mesh;
+  auto between = std::make_shared<const Inbetween>(mesh);
+  auto frame = std::make_shared<const FixedCoordinates>(mesh, solver->handles().holds().fixed);
   return std::make_shared<const SheetMotion>(
-      SheetSetting{std::move(solver), std::move(places), std::move(between)});
+      SheetSetting{solver, std::move(places), std::move(between), std::move(frame)});
 }
 
 }  // namespace holomorph

@@ -82,9 +82,15 @@ SheetState SheetPart::moved(const Similarity& rigid, const SheetHandles::Target&
   SheetState state = solver_->at_rest();
   if (!is_identity(rigid))
     for (Complex& z : state.f) z = rigid(z);
+  // All of the part turns alike, as most of its pins should.
+  const double turn = std::arg(rigid.factor);
+  std::vector<double> turns;
+  for (size_t i = 0; i < state.turns.size(); ++i)
+    turns.push_back(std::round((target.turns[i].value_or(0) - turn) / (2 * kPi)));
+  std::ranges::sort(turns);
+  const double whole = turns.empty() ? 0 : turns[turns.size() / 2];
   for (size_t i = 0; i < state.turns.size(); ++i) {
-    const double wanted = target.turns[i].value_or(0), turn = std::arg(rigid.factor);
-    state.turns[i] = turn + 2 * kPi * std::round((wanted - turn) / (2 * kPi));
+    state.turns[i] = turn + 2 * kPi * whole;
   }
   return state;
 }

@@ -17,7 +17,8 @@ std::shared_ptr<const SheetDomain> domain_of(const Rest& rest) {
 
 std::shared_ptr<const SheetEnergy> energy_of(const Rest& rest, const SheetDomain& domain,
                                              double roundness) {
-  constexpr double kLeast = 0.006, kMost = 0.08;  // of the size
+  constexpr double kLeast = 0.006, kMost = 0.08;  // of the size, with the usual roundness
+  const double most = kMost * std::max(1.0, roundness / 0.5);
   const Mesh& mesh = *domain.mesh;
   VectorXd stiffness(static_cast<Index>(mesh.triangles.size())),
       bending(static_cast<Index>(mesh.vertices.size()));
@@ -31,14 +32,8 @@ std::shared_ptr<const SheetEnergy> energy_of(const Rest& rest, const SheetDomain
   }
   for (Index v = 0; v < bending.size(); ++v)
     bending[v] = std::clamp(roundness * domain.width.at(mesh.vertices[static_cast<size_t>(v)]),
-                            kLeast * domain.size, kMost * domain.size);
+                            kLeast * domain.size, most * domain.size);
   return std::make_shared<const SheetEnergy>(domain.mesh, std::move(stiffness), bending);
-}
-
-SheetHandles::Settings handle_settings(const SheetSolver::Settings& settings) {
-  SheetHandles::Settings out{settings.pin_weight, {}};
-  if (!settings.exact) out.stretch_limit = settings.stretch_limit;
-  return out;
 }
 
 }  // namespace
@@ -55,7 +50,7 @@ SheetSolver::SheetSolver(const Rest& rest, const Settings& settings, const Sheet
                       previous->settings_.roundness == settings.roundness
                   ? previous->energy_
                   : energy_of(rest, *domain_, settings.roundness)),
-      handles_(rest, *domain_, *energy_, handle_settings(settings)),
+      handles_(rest, *domain_, *energy_, {settings.pin_weight, settings.stretch_limit}),
       program_(std::make_unique<SheetProgram>(energy_, handles_.holds())) {}
 
 SheetState SheetSolver::at_rest() const {
@@ -112,9 +107,14 @@ SheetState SheetSolver::solved(const SheetHandles::Target& target,
         state = std::move(straight);
     }
   }
-  constexpr double kMet = 1e-9;  // of the size
-  if (settings_.exact)
-    meet(handles_.pull(target), std::vector<char>(handles_.pins().size(), 1), kMet, state);
+  if (!settings_.exact) return state;
+  constexpr double kReached = 0.02, kMet = 1e-9;  // of the size
+  const SheetPull pull = handles_.pull(target);
+  std::vector<char> reached;
+  for (size_t i = 0; i < handles_.pins().size(); ++i)
+    reached.push_back(std::abs(handles_.image(i, state.f) - pull.rows[i].target) <=
+                      kReached * domain_->size);
+  meet(pull, reached, kMet, state);
   return state;
 }
 
