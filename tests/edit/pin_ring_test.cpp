@@ -84,4 +84,18 @@ TEST_CASE("Ring: the radius stays within the size of the cage") {
   CHECK(desk.pin().radius.value() > 0);
 }
 
+TEST_CASE("Ring: it goes to the pin that is pressed, before the drag ends") {
+  for (const ToolId tool : {ToolId::pin, ToolId::select}) {
+    RingDesk desk("sheet", tool);
+    const Complex first = desk.deformation().pins[0].pose;
+    desk.hover(first);
+    CHECK(desk.tool().overlay().ring == 1);
+    desk.press(first);
+    desk.move(first + Complex(10, 10));
+    CHECK(desk.tool().overlay().ring == 0);
+    CHECK_FALSE(desk.tool().overlay().ring_hovered);
+    desk.release(first + Complex(10, 10));
+  }
+}
+
 }  // namespace holomorph::pin_ring_test

@@ -1,5 +1,7 @@
 #include "core/methods/proved_sheet.h"
 
+#include <algorithm>
+
 namespace holomorph {
 
 ProvedSheet::ProvedSheet(const SheetSolver& solver, const VectorXc& f)
@@ -33,7 +35,9 @@ Extremes ProvedSheet::extremes() const {
   for (size_t i = 0; i < mesh_.triangles.size(); ++i) attained.include(map_->cubics(i).attained());
   for (size_t i = 0; i < mesh_.triangles.size(); ++i)
     bounds.include(map_->cubics(i).bounds(kDepth, attained));
-  return {bounds.shear, bounds.smallest, bounds.largest};
+  // Without folds, shear is below 1, even where its bound is not.
+  return {is_proved() ? std::min(bounds.shear, 1.0) : bounds.shear, bounds.smallest,
+          bounds.largest};
 }
 
 }  // namespace holomorph

@@ -23,10 +23,12 @@ bool HandleTool::press(const Input& input, Workspace& workspace) {
     return true;
   }
   if (!hover_) return false;
-  if (erase_with_alt(input, *hover_, workspace))
+  if (erase_with_alt(input, *hover_, workspace)) {
     hover_.reset();
-  else if (select(input, workspace) && !start_gesture(input, workspace))
+  } else if (select(input, workspace) && !start_gesture(input, workspace)) {
     drag_.start(input, *hover_, workspace.selection, workspace.shown.deformation());
+    if (has_ring()) ring_.hover(input, workspace);  // it goes to the pin that is dragged
+  }
   return true;
 }
 
