@@ -202,30 +202,36 @@ TEST_CASE("Sheet: Newton steps end at a minimum, without flips on the way") {
 }
 
 TEST_CASE("Sheet: a Newton step near the minimum gets there where handles give way") {
-  for (const unsigned seed : seeds_of("handles that give way", {1, 2, 3})) {
+  for (const unsigned seed : seeds_of("handles that give way", {1})) {
     std::mt19937 random(seed);
-    const auto sheet = sheet_of(polygon_cage(shapes::star(6, 0.4, seed)), 400, 25);
-    const Mesh& mesh = sheet->mesh();
-    const double size = box_of(mesh.vertices).diagonal();
-    SheetHolds holds;
-    SheetPull pull;
-    for (int p = 0; p < 4; ++p) {
-      const Complex z = Complex(200, 200) + std::polar(60.0, 2 * kPi * p / 4);
-      holds.rows.push_back(row_at(mesh, z));
-      // Two pins are far away, and pull with about the same force wherever they are.
-      const Spring spring{1e4 / (size * size), p < 2 ? 0 : size / 2, 0.1 / (size * size)};
-      pull.rows.push_back({z + (p < 2 ? 10.0 : 500.0) * random_complex(random), spring});
+    std::vector<double> left;  // of the distance from the minimum
+    for (int shape = 0; shape < 9; ++shape) {
+      const auto sheet = sheet_of(polygon_cage(shapes::star(6, 0.4, random())), 200, 25);
+      const Mesh& mesh = sheet->mesh();
+      const double size = box_of(mesh.vertices).diagonal();
+      SheetHolds holds;
+      SheetPull pull;
+      for (int p = 0; p < 4; ++p) {
+        const Complex z = Complex(200, 200) + std::polar(60.0, 2 * kPi * p / 4);
+        holds.rows.push_back(row_at(mesh, z));
+        // Two pins are far away, and pull with about the same force wherever they are.
+        const Spring spring{1e4 / (size * size), p < 2 ? 0 : size / 2, 0.1 / (size * size)};
+        pull.rows.push_back({z + (p < 2 ? 10.0 : 500.0) * random_complex(random), spring});
+      }
+      pull.vertices.push_back({7, mesh.vertices[7] + 300.0, {1e4 / (size * size), size, 0}});
+      const SheetProgram program(sheet, holds);
+      VectorXc f = at_rest(mesh);
+      program.minimize(pull, f, 300, {}, 0);
+      // A smooth change, to which the springs matter as much as the sheet.
+      const VectorXc best = f;
+      for (Index v = 0; v < f.size(); ++v) f[v] += 1e-4 * best[v] * best[v] / size;
+      const double before = (f - best).norm();
+      program.step(pull, f, false);
+      left.push_back((f - best).norm() / before);
     }
-    pull.vertices.push_back({7, mesh.vertices[7] + 300.0, {1e4 / (size * size), size, 0}});
-    SheetProgram program(sheet, holds);
-    VectorXc f = at_rest(mesh);
-    program.minimize(pull, f, 300, {}, 0);
-    const VectorXc best = f;
-    for (int v = 0; v < f.size(); ++v) f[v] += 1e-3 * random_complex(random);
-    const double before = (f - best).norm();
-    program.step(pull, f, false);
-    CAPTURE(seed, before, (f - best).norm());
-    CHECK((f - best).norm() < 0.02 * before);
+    std::ranges::sort(left);
+    CAPTURE(seed, left);
+    CHECK(left[4] < 0.01);  // projected Hessians leave 0.08
   }
 }
 
