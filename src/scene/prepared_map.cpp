@@ -38,8 +38,8 @@ bool differ(const std::vector<Depth>& depths) {
   return std::ranges::any_of(depths, [&](const Depth& d) { return d.depth != depths[0].depth; });
 }
 
-/// A solving mesh, subdivided until it has at least half of options.vertices. In a small part of a
-/// triangle, a map without folds is nearly linear, so drawn triangles hardly ever flip.
+/// A solving mesh, subdivided until it has at least half of options.vertices. In a small piece of
+/// its triangles, a map without folds is nearly linear, so drawn triangles hardly ever flip.
 std::shared_ptr<const Mesh> subdivided_for(const std::shared_ptr<const Mesh>& mesh,
                                            const MeshOptions& options) {
   const double finer = options.vertices / static_cast<double>(mesh->vertices.size());

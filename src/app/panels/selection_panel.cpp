@@ -84,8 +84,8 @@ void pin_gap(const Workspace& workspace, Index pin) {
   colored_text(theme_colors().warning, text);
   if (limited)
     tooltip(
-        "The pin gives way rather than stretch the picture farther. Stretch limit is in the "
-        "settings of the method.");
+        "The pin gives way rather than stretch the picture farther. To pull it farther, raise "
+        "Stretch limit in the method's settings.");
 }
 
 void pin_rows(Workspace& workspace, Index pin) {

@@ -76,13 +76,11 @@ std::shared_ptr<const ProvedMotion> SheetPart::motion() const {
   return sheet_motion(solver_, std::move(places));
 }
 
-/// A map that moves all of the part, with whole turns that are as close as possible to the
-/// target's.
+/// A map that moves all of the part. All pins have the same turn, which is that of most targets.
 SheetState SheetPart::moved(const Similarity& rigid, const SheetHandles::Target& target) const {
   SheetState state = solver_->at_rest();
   if (!is_identity(rigid))
     for (Complex& z : state.f) z = rigid(z);
-  // All of the part turns alike, as most of its pins should.
   const double turn = std::arg(rigid.factor);
   std::vector<double> turns;
   for (size_t i = 0; i < state.turns.size(); ++i)

@@ -17,9 +17,9 @@ class FixedCoordinates {
   /// factorizations.
   FixedCoordinates(std::shared_ptr<const Mesh> mesh, const std::vector<std::array<bool, 2>>& fixed);
 
-  /// Puts the fixed coordinates of a map back to rest. The other ones follow by the displacements
-  /// of least Dirichlet energy, so that only what is near the frame changes much. Cost: two sparse
-  /// solves.
+  /// Puts the fixed coordinates of a map, which has a value for each vertex, back to rest. The
+  /// others follow by the displacement of least Dirichlet energy. Triangles may flip. Cost: two
+  /// sparse solves.
   void restore(VectorXc& f) const;
 
  private:

@@ -41,6 +41,16 @@ double size_of(const Rest& rest) {
   return box_of(rest.mesh->vertices).diagonal();
 }
 
+/// Keys a second apart. They refer to the poses and the maps.
+std::vector<MotionKey> keys_of(const std::array<Pose, 2>& poses,
+                               const std::vector<SampledMap>& maps) {
+  std::vector<MotionKey> keys;
+  for (size_t k = 0; k < 2; ++k)
+    keys.push_back(
+        {maps[k].solution, maps[k].extremes, &poses[k], &maps[k].f, 0, static_cast<double>(k)});
+  return keys;
+}
+
 }  // namespace
 
 TEST_CASE("Sheet: beyond pins that hold, the picture stands still") {
@@ -271,9 +281,7 @@ TEST_CASE("Sheet: a motion to a pin that gives way is spread over the whole inte
   poses[1].pins[1].position = {60 + 20 * 680, 60};
   std::vector<SampledMap> maps;
   for (const Pose& pose : poses) maps.push_back(deformer->deform(pose, {}));
-  std::vector<MotionKey> keys;
-  for (size_t k = 0; k < 2; ++k)
-    keys.push_back({maps[k].solution, maps[k].extremes, &poses[k], &maps[k].f, 0, 1.0 * k});
+  const std::vector<MotionKey> keys = keys_of(poses, maps);
   const auto interval = deformer->motion()->interval(nullptr, keys[0], keys[1], nullptr, false);
   REQUIRE(interval);
   const Location pin = locate_near(*rest.mesh, rest.pins[1].position);
@@ -309,9 +317,7 @@ TEST_CASE("Sheet: frames hold between keys, whatever moves or turns inside") {
     CAPTURE(seed);
     std::vector<SampledMap> maps;
     for (const Pose& pose : poses) maps.push_back(deformer->deform(pose, {}));
-    std::vector<MotionKey> keys;
-    for (size_t k = 0; k < 2; ++k)
-      keys.push_back({maps[k].solution, maps[k].extremes, &poses[k], &maps[k].f, 0, 1.0 * k});
+    const std::vector<MotionKey> keys = keys_of(poses, maps);
     const auto interval = deformer->motion()->interval(nullptr, keys[0], keys[1], nullptr, false);
     REQUIRE(interval);
     for (const double u : {0.1, 0.4, 0.5, 0.8}) {
@@ -357,11 +363,8 @@ TEST_CASE("Sheet: the motion between keys is proved, holds pins, and ends at the
     poses[0].pins.back().position += 0.1 * puppet.size * random_complex(random);
     std::vector<SampledMap> maps;
     for (const Pose& pose : poses) maps.push_back(deformer->deform(pose, {}));
-    std::vector<MotionKey> keys;
-    for (size_t k = 0; k < 2; ++k) {
-      REQUIRE(maps[k].extremes);
-      keys.push_back({maps[k].solution, maps[k].extremes, &poses[k], &maps[k].f, 0, 1.0 * k});
-    }
+    for (const SampledMap& map : maps) REQUIRE(map.extremes);
+    const std::vector<MotionKey> keys = keys_of(poses, maps);
     const auto motion = deformer->motion();
     REQUIRE(motion);
     INFO("seed " << seed);
