@@ -181,8 +181,9 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["pictured"] and s["tool"] == "pin", "the drawing and the pin tool", 60)
             editor.pause(0.5)
             self.screenshot(editor, "drawing-opened")
-            editor.click(600, 410)
-            editor.click(800, 668)
+            for count, place in enumerate([(600, 410), (800, 668)], 1):
+                editor.click(*place)
+                editor.wait(lambda s: s["pins"] == count, f"pin {count}", 60)
             editor.drag((250, 270), (250, 360))
             editor.wait(lambda s: s["pins"] == 3 and not s["gesture"] and s["modified"], "a bent drawing", 60)
             editor.drop(drawing, 700, 500)

@@ -534,6 +534,16 @@ class CommandLine(Case):
         huge = {"format": "holomorph", "version": 1, "cage": {"rest": [[[i, i * i]] for i in range(6000)]}}
         self.bad("info", self.write("bad.json", huge), says="5000")
 
+    def test_the_manual_page_names_all_commands_and_options(self):
+        with open(os.path.join(SOURCE, "desktop/holomorph.1")) as file:
+            page = file.read().replace("\\-", "-")
+        commands = re.findall(r"^  ([a-z]+) ", run("--help").stdout.split("Subcommands:")[1], re.M)
+        self.assertGreater(len(commands), 7)
+        for command in commands:
+            self.assertIsNotNone(re.search(rf"(?m)^\.B[RI]? {command}\b", page), command)
+            for flag in set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", run(command, "--help").stdout, re.M)):
+                self.assertIsNotNone(re.search(rf"(?m)^\.B.*{flag}\b", page), f"{command} {flag}")
+
     def test_bad_arguments(self):
         scene = old_sample("giraffe")
         points = self.write("p.csv", "1,2\n3,x\n")
