@@ -79,6 +79,14 @@ Complex posed_at(const LiveMap& map, Complex rest) {
   return found ? found->in(mesh, as_span(f)) : rest;
 }
 
+double rotation_at(const Workspace& workspace, Index pin) {
+  const Deformation& deformation = workspace.shown.deformation();
+  const Pin& own = deformation.pins[pin];
+  if (own.angle) return *own.angle;
+  const auto turn = workspace.map().pin_turn(deformation, static_cast<size_t>(pin));
+  return turn.value_or(own.turn.value_or(0));
+}
+
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {
   constexpr double kAtVertex = 1e-3;
   if (!has_cage_handles(workspace.shown.deformation(), workspace.mode)) return {};

@@ -21,6 +21,9 @@ bool is_in_hole(const Workspace& workspace, Complex z);
 /// no map is available yet.
 Complex posed_at(const LiveMap& map, Complex rest);
 
+/// The rotation at a pin in radians: the pin's own, or else that of the picture as it is shown.
+double rotation_at(const Workspace& workspace, Index pin);
+
 /// The nearest handle of the current mode within picking distance. Points have priority over
 /// strokes.
 std::optional<Handle> handle_at(const Workspace& workspace, Complex px);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/clock.h"
+#include "core/maps/distortion.h"
 #include "scene/keyframes.h"
 
 namespace holomorph {
@@ -196,6 +197,14 @@ std::optional<Complex> LiveMap::pin_image(size_t i) const {
   if (!has_map() || map().ignores_pins || i >= prepared_->pins.size() || !prepared_->pins[i])
     return {};
   return prepared_->pins[i]->in(*prepared_->mesh, as_span(map().f));
+}
+
+std::optional<double> LiveMap::pin_turn(const Deformation& deformation, size_t i) const {
+  if (!pin_image(deformation, i)) return {};
+  if (i < map().turns.size() && map().turns[i]) return map().turns[i];
+  const Mesh& mesh = *prepared_->mesh;
+  const Triangle& at = mesh.triangles[static_cast<size_t>(prepared_->pins[i]->triangle)];
+  return std::arg(derivatives_in(mesh, at, map().f).fz);
 }
 
 void LiveMap::clear() {

@@ -50,6 +50,8 @@ class LiveMap {
   /// Like the overload above, but does not check the rest state. Use it for a deformation with the
   /// same rest state as posed().
   std::optional<Complex> pin_image(size_t i) const;
+  /// The rotation of the picture at that pin, in radians. Whole turns count if the map knows them.
+  std::optional<double> pin_turn(const Deformation& deformation, size_t i) const;
   /// The images of the zeros of f_z that the map reports.
   const Points& zero_images() const { return posed_.zero_images; }
   /// The deformation to which map() belongs. It may be an earlier state of the edited deformation.

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "edit/edits/edits.h"
+#include "edit/picking.h"
 #include "scene/formats/scene_json.h"
 #include "support/catch.h"
 #include "support/desk.h"
@@ -95,6 +96,33 @@ TEST_CASE("Ring: it goes to the pin that is pressed, before the drag ends") {
     CHECK(desk.tool().overlay().ring == 0);
     CHECK_FALSE(desk.tool().overlay().ring_hovered);
     desk.release(first + Complex(10, 10));
+  }
+}
+
+TEST_CASE("Ring: a pin that turned with the picture starts from there, and has its number") {
+  for (const char* method : {"sheet", "puppet", "arap", "pins"}) {
+    CAPTURE(method);
+    Deformation bar = pinned_bar(method);
+    // The right half of the bar turns.
+    bar.pins[2].pose = {480, 220};
+    TestWorkspace desk;
+    desk.workspace.commit("Bar", bar);
+    desk.workspace.tools.active = ToolId::select;
+    desk.workspace.selection = {{Handle::Kind::pin, 2, 0}};
+    desk.settle();
+    const double turn = rotation_at(desk.workspace, 2);
+    CHECK(turn > 0.2);
+    CHECK(turn < 2);
+    const double radius =
+        kRingRadius * desk.workspace.display.handle_px / desk.workspace.display.viewport.zoom;
+    const Complex at = bar.pins[2].pose;
+    desk.press(at + radius * kI);
+    desk.move(at + radius * kI * std::polar(1.0, 0.1));
+    desk.move(at + radius * kI * std::polar(1.0, 0.2));
+    desk.release(at + radius * kI * std::polar(1.0, 0.2));
+    REQUIRE(desk.deformation().pins[2].angle);
+    CHECK(std::abs(*desk.deformation().pins[2].angle - turn - 0.2) < 0.02);
+    CHECK(rotation_at(desk.workspace, 2) == *desk.deformation().pins[2].angle);
   }
 }
 

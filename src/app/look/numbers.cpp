@@ -128,6 +128,9 @@ Change number_field(const std::string& name, double& value, const Number& number
   const double speed = number.speed > 0 ? number.speed
                        : bounded        ? (number.high - number.low) / 300
                                         : std::pow(10.0, -number.decimals);
+  const bool goes_far = types && number.typed > 0;
+  const double low = goes_far ? -number.typed : number.low,
+               high = goes_far ? number.typed : number.high;
   char format[16];
   std::snprintf(format, sizeof format, "%%.%df", number.decimals);
   ImGui::PushStyleColor(ImGuiCol_Text, types ? color_of(theme_colors().text) : ImVec4(0, 0, 0, 0));
@@ -135,7 +138,7 @@ Change number_field(const std::string& name, double& value, const Number& number
                         color_of(types ? theme_colors().accent : theme_colors().edge));
   const bool changed = ImGui::DragScalar(
       name.c_str(), ImGuiDataType_Double, &value, static_cast<float>(speed),
-      bounded ? &number.low : nullptr, bounded ? &number.high : nullptr, format,
+      bounded ? &low : nullptr, bounded ? &high : nullptr, format,
       ImGuiSliderFlags_NoRoundToFormat |
           (bounded ? ImGuiSliderFlags_AlwaysClamp : ImGuiSliderFlags_None) |
           (number.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));

@@ -17,6 +17,7 @@
 #include "edit/edits/curve_edits.h"
 #include "edit/edits/method_edits.h"
 #include "edit/frame.h"
+#include "edit/picking.h"
 
 namespace holomorph {
 namespace {
@@ -118,7 +119,7 @@ void set_rotation(Workspace& workspace, const std::vector<Index>& pins, bool fix
   Deformation after = workspace.shown.deformation();
   for (const Index i : pins) {
     Pin& pin = after.pins[static_cast<size_t>(i)];
-    if (fixed && !pin.angle) pin.angle = pin.turn.value_or(0);
+    if (fixed) pin.angle = rotation_at(workspace, i);
     if (!fixed) pin.angle.reset();
   }
   workspace.commit(fixed ? "Fix rotation" : "Free rotation", std::move(after));

@@ -3,6 +3,7 @@
 #include "edit/actions/actions.h"
 
 #include "edit/edits/curve_edits.h"
+#include "edit/picking.h"
 
 namespace holomorph {
 
@@ -128,6 +129,7 @@ void PinRing::start(const Input& input, const Workspace& workspace) {
   start_angle_ = angle_to(input, workspace);
   start_distance_ = distance_to(input, workspace);
   start_deformation_ = workspace.shown.deformation();
+  start_rotation_ = rotation_at(workspace, *pin_);
   turned_ = 0;
   gesture_ = on_disk_ ? Gesture::resize : input.mods.ctrl ? Gesture::undecided : Gesture::rotate;
 }
@@ -148,11 +150,12 @@ void PinRing::decide(const Input& input, Workspace& workspace) {
 }
 
 Deformation PinRing::rotated(const Input& input, const Workspace& workspace) const {
-  const double before = start_deformation_.pins[*pin_].angle.value_or(0);
-  double angle = before + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
+  double angle =
+      start_rotation_ + std::remainder(angle_to(input, workspace) - start_angle_, 2 * kPi);
   // The angle is unwrapped from frame to frame, because a drag can exceed half a turn.
-  const double last =
-      workspace.shown.preview ? workspace.shown.preview->pins[*pin_].angle.value_or(0) : before;
+  const double last = workspace.shown.preview
+                          ? workspace.shown.preview->pins[*pin_].angle.value_or(start_rotation_)
+                          : start_rotation_;
   angle += 2 * kPi * std::round((last - angle) / (2 * kPi));
   if (input.mods.shift) angle = std::round(angle / (kPi / 12)) * (kPi / 12);
   return turned(start_deformation_, *pin_, angle);
@@ -201,7 +204,9 @@ bool PinRing::scroll(const Input& input, Workspace& workspace) {
   hover(input, workspace);
   if (!hovered_) return false;
   const double factor = std::pow(1.05, input.wheel);
-  workspace.commit_or_amend("Scale pin", scaled(workspace.shown.deformation(), *pin_, factor));
+  const Deformation held =
+      turned(workspace.shown.deformation(), *pin_, rotation_at(workspace, *pin_));
+  workspace.commit_or_amend("Scale pin", scaled(held, *pin_, factor));
   return true;
 }
 
