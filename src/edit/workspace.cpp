@@ -70,10 +70,21 @@ Deformation Workspace::with_turns(Deformation deformation) const {
     return deformation;
   }
   if (turns.size() != deformation.pins.size()) return deformation;
-  constexpr double kSteps = 1000;  // per radian
   for (size_t i = 0; i < turns.size(); ++i)
-    if (turns[i]) deformation.pins[i].turn = std::round(kSteps * *turns[i]) / kSteps;
+    if (turns[i]) deformation.pins[i].turn = stored_turn(*turns[i]);
   return deformation;
+}
+
+/// Stores the turns that were found when a drag was released, in the step of that drag.
+void Workspace::adopt_better_turns() {
+  const LiveMap& live = map();
+  const auto& turns = live.map().better_turns;
+  if (turns.empty() || shown.preview || live.posed() != document.scene().deformation() ||
+      !document.history().can_undo())
+    return;
+  Deformation deformation = *live.posed();
+  for (size_t i = 0; i < turns.size(); ++i) deformation.pins[i].turn = turns[i];
+  document.amend(with_deformation(document.scene(), std::move(deformation)));
 }
 
 bool Workspace::commit(const std::string& label, Deformation deformation, EditBase base) {
@@ -266,6 +277,7 @@ bool Workspace::update_map(EvalOptions options) {
   if (!time || (shown.is_timed() && !fits(own, whole_pose_of(shown.base())))) shown.set_timed({});
   if (time && map().posed() == own) shown.set_timed(map().timed());
   prune_selection();  // the degrees of posed segments may vary with time
+  if (changed) adopt_better_turns();
   return changed;
 }
 

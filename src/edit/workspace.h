@@ -210,6 +210,7 @@ struct Workspace {
   bool continues_step(const std::string& label) const;
   bool changes_closed_layer(const Scene& scene) const;
   void leave_layer();
+  void adopt_better_turns();
   /// Whether a scene may enter the history. If not, a toast says why.
   bool accepts(const Scene& scene);
 

@@ -11,6 +11,7 @@
 #include "support/catch.h"
 #include "support/desk.h"
 #include "support/pinned_bar.h"
+#include "support/shapes.h"
 
 namespace holomorph::turns_test {
 
@@ -115,6 +116,43 @@ TEST_CASE("Puppet: a pin without a turn leaves the other pins wound up") {
   CHECK_FALSE(desk.deformation().pins[3].turn.has_value());
   desk.settle();
   CHECK((workspace.map().map().f - before).cwiseAbs().maxCoeff() < 6);
+}
+
+TEST_CASE("Puppet: a release finds turns that lead to what is shown, and stores them in its step") {
+  Deformation bar = with_cage(Deformation{}, shapes::rectangle(900, 80));
+  bar.method = "sheet";
+  for (const Complex z : {Complex(50, 40), Complex(450, 40), Complex(850, 40)})
+    bar.pins.push_back({z, z, {}, {}});
+  BarDesk desk(bar);
+  Workspace& workspace = desk.workspace;
+  Deformation released = desk.deformation();
+  released.pins[2].pose = {400, 40};
+  workspace.shown.preview = released;
+  workspace.map().finish(released, {.derivatives = false, .draft = true});
+  const VectorXc shown = workspace.map().map().f;
+  // As if the turns of the draft led to a loop.
+  released.pins[2].turn = 4.712;
+  const size_t steps = desk.steps();
+  workspace.shown.preview.reset();
+  REQUIRE(workspace.commit("Move", released));
+  desk.update();
+  CHECK(desk.steps() == steps + 1);
+  CHECK(desk.deformation() != released);
+  CHECK((workspace.map().map().f - shown).cwiseAbs().maxCoeff() < 6);
+  for (Pin& pin : released.pins) pin.turn.reset();
+  Deformation stored = desk.deformation();
+  for (Pin& pin : stored.pins) pin.turn.reset();
+  CHECK(stored == released);
+  const auto prepared = prepared_map(desk.deformation(), Precision::single, MeshOptions{500});
+  const SampledMap again = prepared->deformer->deform(pose_of(desk.deformation()), {});
+  CHECK((again.f - workspace.map().map().f).cwiseAbs().maxCoeff() <= 1e-6 * 900);
+  // Opening the step again does not look for other turns.
+  const Deformation kept = desk.deformation();
+  run("edit.undo", workspace);
+  desk.update();
+  run("edit.redo", workspace);
+  desk.update();
+  CHECK(desk.deformation() == kept);
 }
 
 TEST_CASE("Pins that another method moves lose their turns") {

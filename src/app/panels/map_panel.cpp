@@ -132,7 +132,7 @@ void injectivity_section(Workspace& workspace) {
             "The size that remains where the picture is compressed most, in the "
             "direction of the strongest compression. Below 0 %, it is flipped over.");
   }
-  details("Details: turning number " + std::to_string(std::lround(found.turning_number)),
+  details("Turning number " + std::to_string(std::lround(found.turning_number)),
           "How many times the edge of the picture turns: 1 unless the picture "
           "overlaps itself at a point or is flipped over.");
 }

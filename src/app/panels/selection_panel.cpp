@@ -11,6 +11,7 @@
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/curve_edits.h"
 #include "edit/edits/method_edits.h"
+#include "edit/picking.h"
 #include "edit/tools/transform_box.h"
 
 namespace holomorph {
@@ -70,17 +71,33 @@ bool has_stretch_limit(const Deformation& deformation) {
   return spec != method.parameters.end() && is_used(method, chosen_parameters(deformation), *spec);
 }
 
+/// By how many degrees the picture turns less than a pin asks for, where it is held back visibly.
+std::optional<double> angle_gap(const LiveMap& map, const Deformation& deformation, Index pin) {
+  constexpr double kVisible = 2;  // degrees
+  const auto& angle = deformation.pins[pin].angle;
+  const auto turn = map.pin_turn(deformation, static_cast<size_t>(pin));
+  if (!angle || !turn || map.map().turns.empty()) return {};
+  const double gap = std::abs(*angle - *turn) / kDegree;
+  return gap > kVisible ? std::optional(gap) : std::nullopt;
+}
+
 /// If the gap is visible, says how far short of the pin's target the picture stops.
 void pin_gap(const Workspace& workspace, Index pin) {
   const Deformation& deformation = workspace.shown.deformation();
   const auto reached = workspace.map().pin_image(deformation, static_cast<size_t>(pin));
   if (!reached) return;
-  const double gap = std::abs(*reached - deformation.pins[pin].pose);
-  if (gap * workspace.layer_view().zoom <= 1) return;
+  double gap = std::abs(*reached - deformation.pins[pin].pose);
+  const char* unit = " px";
+  if (gap * workspace.layer_view().zoom <= 1) {
+    const auto angle = angle_gap(workspace.map(), deformation, pin);
+    if (!angle) return;
+    gap = *angle;
+    unit = "\u00b0";
+  }
   const bool limited = has_stretch_limit(deformation);
   char text[80];
-  std::snprintf(text, sizeof text, "%s %.*f px short%s", limited ? "Stops" : "The picture stops",
-                gap < 10 ? 1 : 0, gap, limited ? ", at the stretch limit." : ".");
+  std::snprintf(text, sizeof text, "%s %.*f%s short%s", limited ? "Stops" : "The picture stops",
+                gap < 10 ? 1 : 0, gap, unit, limited ? ", at the stretch limit." : ".");
   colored_text(theme_colors().warning, text);
   if (limited)
     tooltip(
@@ -92,11 +109,11 @@ void pin_rows(Workspace& workspace, Index pin) {
   if (workspace.mode == EditMode::rest) return;
   const Pin shown = workspace.shown.deformation().pins[pin];
   ImGui::BeginDisabled(!shown.angle);
-  double degrees = shown.angle.value_or(shown.turn.value_or(0)) / kDegree,
-         percent = 100 * shown.scale;
+  double degrees = rotation_at(workspace, pin) / kDegree, percent = 100 * shown.scale;
   apply_change(
       workspace,
-      slider_row("Rotation", degrees, {.low = -180, .high = 180, .unit = "\u00b0", .neutral = 0.0},
+      slider_row("Rotation", degrees,
+                 {.low = -180, .high = 180, .unit = "\u00b0", .neutral = 0.0, .typed = 3600},
                  "Set Rotation to Fixed to use this"),
       "Rotate pin", [&](const Deformation& s) { return turned(s, pin, degrees * kDegree); });
   apply_change(

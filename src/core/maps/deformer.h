@@ -45,6 +45,9 @@ struct SampledMap {
   /// The rotation of the picture at each pin, for methods whose maps depend on it; none for pins
   /// that were ignored. Otherwise empty.
   std::vector<std::optional<double>> turns;
+  /// After a release: the turns of the pins with which the pose has this map. Empty if these are
+  /// the pose's own.
+  std::vector<std::optional<double>> better_turns;
   std::shared_ptr<const Solution> solution;  ///< null if the method does not iterate
 };
 
@@ -57,6 +60,9 @@ struct EvalOptions {
   /// If set, the map is evaluated after this many iterations. Methods that report no energies
   /// ignore this.
   std::optional<int> iteration = {};
+  /// Set for the final map of a pose that was dragged, which follows its last draft. If the turns
+  /// of the pins lead to another map than the draft, better turns are looked for.
+  bool released = false;
   /// Lets another thread end a slow final answer: `deform` then throws Stopped. Methods that are
   /// fast enough may finish instead.
   std::stop_token stop = {};

@@ -2,6 +2,7 @@
 // (Pose).
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,6 +47,12 @@ struct PosePin {
   std::optional<double> turn = {};
   bool operator==(const PosePin&) const = default;
 };
+
+/// A turn of a pin as it is stored. It only has to be near.
+inline double stored_turn(double radians) {
+  constexpr double kSteps = 1000;  // per radian
+  return std::round(kSteps * radians) / kSteps;
+}
 
 /// Rotations at a corner, in radians and unwrapped. They are added to the boundary angles of the
 /// posed cage.

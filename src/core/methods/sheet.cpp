@@ -28,7 +28,7 @@ class SheetDeformer final : public Deformer {
     const auto solution = std::make_shared<SheetSolutions>();
     solution->parts.resize(parts().size());
     std::vector<MapOfPart> maps(parts().size());
-    std::vector<std::optional<double>> turns(rest_.pins.size());
+    std::vector<std::optional<double>> turns(rest_.pins.size()), better_turns;
     std::string missed;
     std::optional<Complex> unproved;
     bool twisted = false;
@@ -38,6 +38,11 @@ class SheetDeformer final : public Deformer {
                                                   before ? before->parts[p].get() : nullptr);
       const std::vector<size_t>& pins = sheets_->division.parts()[p].pins;
       for (size_t i = 0; i < pins.size(); ++i) turns[pins[i]] = found.map.turns[i];
+      if (!found.map.better_turns.empty()) {
+        if (better_turns.empty())
+          for (const PosePin& pin : pose.pins) better_turns.push_back(pin.turn);
+        for (size_t i = 0; i < pins.size(); ++i) better_turns[pins[i]] = found.map.better_turns[i];
+      }
       missed += found.missed;
       if (!unproved) unproved = found.unproved;
       twisted = twisted || found.twisted;
@@ -47,6 +52,7 @@ class SheetDeformer final : public Deformer {
     SampledMap out = sheets_->merged(std::move(maps), options.derivatives);
     if (options.draft) out.extremes.reset();
     out.turns = std::move(turns);
+    out.better_turns = std::move(better_turns);
     out.solution = solution;
     out.note = unproved ? "Not proved near " + point_text(*unproved) : "No folds" + missed;
     if (!ignored_.empty()) out.note += ". " + ignored_;

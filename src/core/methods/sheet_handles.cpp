@@ -13,6 +13,9 @@ namespace {
 /// The pulls of all of a disk and of all of the cage, in units of a pin's.
 constexpr double kDiskPull = 10, kCagePull = 100;
 
+/// By how much a frame turns the picture on, at most, in radians.
+constexpr double kMostBehind = kPi / 6;
+
 }  // namespace
 
 SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, const SheetEnergy& energy,
@@ -25,9 +28,11 @@ SheetHandles::SheetHandles(const Rest& rest, const SheetDomain& domain, const Sh
     springs_.push_back(usual_spring(rest, row, energy, settings));
   }
   for (size_t row = 0; row < pins().size(); ++row) {
-    guides_.push_back(disk_of(rest, row));
+    disks_.push_back(disk_of(rest, row));
     if (rest.pins[pins()[row]].has_frame) framed_.push_back(row);
   }
+  for (const size_t row : framed_)
+    for (const auto& [v, share] : disks_[row]) holds_.rows.push_back(arm(row, v));
   if (rest.frame != Frame::free) add_frame(rest);
   if (rest.held_beyond && !pins().empty()) hold_beyond(*rest.held_beyond);
 }
@@ -115,6 +120,17 @@ void SheetHandles::hold_beyond(double radius) {
       holds_.fixed[v] = {true, true};
 }
 
+std::vector<SheetRow> SheetHandles::moving_rows() const {
+  return {holds_.rows.begin(), holds_.rows.begin() + static_cast<Index>(stations().size())};
+}
+
+double SheetHandles::turn(size_t row, const Target& target) const {
+  const auto framed = std::ranges::find(framed_, row);
+  return framed == framed_.end()
+             ? target.turns[row].value_or(0)
+             : target.frames[static_cast<size_t>(framed - framed_.begin())].imag();
+}
+
 double SheetHandles::Target::farthest() const {
   return displacements.size() == 0 ? 0 : displacements.cwiseAbs().maxCoeff();
 }
@@ -138,6 +154,7 @@ SheetHandles::Target SheetHandles::target(const Pose& pose) const {
     target.frames.emplace_back(std::log(pin.scale), pin.angle);
   }
   target.turns = handles_.turns(pose);
+  for (const size_t row : framed_) target.turns[row].reset();
   return target;
 }
 
@@ -148,7 +165,14 @@ std::optional<Similarity> SheetHandles::rigid(const Target& target) const {
     to.push_back(wanted(framed_[k], target) + domain_.size * std::exp(target.frames[k]));
   }
   if (!holds_.fixed.empty() && from != to) return {};
-  return rigid_motion(from, to);
+  const std::optional<Similarity> rigid = rigid_motion(from, to);
+  // A ring that has gone once around twists the picture, unless it turns all of it.
+  const bool turns_all = holds_.fixed.empty() && framed_.size() == stations().size();
+  for (size_t k = 0; rigid && k < framed_.size(); ++k) {
+    const double expected = turns_all ? target.frames[0].imag() : std::arg(rigid->factor);
+    if (std::abs(target.frames[k].imag() - expected) > kPi) return {};
+  }
+  return rigid;
 }
 
 Points SheetHandles::straight(const Target& target, double part) const {
@@ -169,27 +193,53 @@ Spring SheetHandles::spring(size_t row, const Target& target) const {
   return spring;
 }
 
-SheetPull SheetHandles::pull(const Target& target, const Points& at, double part,
-                             double guide) const {
-  SheetPull pull;
-  // On the way, nothing gives way, or the turns would be lost.
-  for (size_t row = 0; row < at.size(); ++row)
-    pull.rows.push_back({at[row], guide > 0 ? springs_[row].firm() : spring(row, target)});
-  const auto turn_around = [&](size_t row, Complex by, double strength) {
-    constexpr double kForce = 2;  // turning takes more of it than pulling
-    const Spring& own = pull.rows[row].spring;
-    const Spring whole{kDiskPull * own.weight, own.inverse_force / kForce, kForce * own.far_weight};
-    for (const auto& [v, share] : guides_[row]) {
-      const Complex arm = mesh_->vertices[static_cast<size_t>(v)] - stations()[row];
-      pull.vertices.push_back({v, pull.rows[row].target + by * arm, strength * share * whole});
-    }
-  };
+/// The image of a vertex as seen from that of a pin.
+SheetRow SheetHandles::arm(size_t row, int vertex) const {
+  std::map<int, double> parts{{vertex, 1}};
+  for (const auto& [v, part] : holds_.rows[row].terms) parts[v] -= part;
+  return {{parts.begin(), parts.end()}};
+}
+Complex SheetHandles::arm_at_rest(size_t row, int vertex) const {
+  return mesh_->vertices[static_cast<size_t>(vertex)] - stations()[row];
+}
+Spring SheetHandles::arm_spring(size_t row, double share) const {
+  constexpr double kForce = 8;  // of a pin's limit; turning takes more of it than pulling
+  const Spring& own = springs_[row];
+  return share *
+         Spring{kDiskPull * own.weight, own.inverse_force / kForce, kForce * own.far_weight};
+}
+
+bool SheetHandles::is_behind(const Target& target, const std::vector<double>& turns) const {
   for (size_t k = 0; k < framed_.size(); ++k)
-    turn_around(framed_[k], std::exp(part * target.frames[k]), 1);
-  for (size_t row = 0; guide > 0 && row < pins().size(); ++row)
-    if (target.turns[row] && std::ranges::find(framed_, row) == framed_.end())
-      turn_around(row, std::polar(1.0, part * *target.turns[row]), guide);
+    if (std::abs(target.frames[k].imag() - turns[framed_[k]]) > kMostBehind) return true;
+  return false;
+}
+
+SheetPull SheetHandles::pull(const Target& target, const Points& at, double part,
+                             const std::vector<double>& turns) const {
+  SheetPull pull;
+  for (size_t row = 0; row < at.size(); ++row) pull.rows.push_back({at[row], spring(row, target)});
+  for (size_t k = 0; k < framed_.size(); ++k) {
+    const size_t row = framed_[k];
+    const Complex wanted = part * target.frames[k];
+    const double turn =
+        std::clamp(wanted.imag(), turns[row] - kMostBehind, turns[row] + kMostBehind);
+    const Complex by = std::polar(std::exp(wanted.real()), turn);
+    for (const auto& [v, share] : disks_[row])
+      pull.rows.push_back({by * arm_at_rest(row, v), arm_spring(row, share)});
+  }
   return pull;
+}
+
+void SheetHandles::add_turns(const Target& target, double part, double strength, const VectorXc& f,
+                             SheetPull& pull) const {
+  for (size_t row = 0; row < pins().size(); ++row) {
+    if (!target.turns[row] || is_framed(row)) continue;
+    const Complex center = image(row, f), turn = std::polar(1.0, part * *target.turns[row]);
+    for (const auto& [v, share] : disks_[row])
+      pull.vertices.push_back(
+          {v, center + turn * arm_at_rest(row, v), arm_spring(row, strength * share).firm()});
+  }
 }
 
 }  // namespace holomorph

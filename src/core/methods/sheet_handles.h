@@ -1,6 +1,8 @@
 // The handles of method `sheet`: what a rest holds, and where a pose pulls it.
 #pragma once
 
+#include <algorithm>
+
 #include "core/geometry/similarity.h"
 #include "core/methods/puppet_handles.h"
 #include "core/sheet/sheet_domain.h"
@@ -8,8 +10,9 @@
 
 namespace holomorph {
 
-/// Pins, points along strokes and, without either, the cage's boundary are rows of the sheet. Pins
-/// with frames pull at the vertices of their disks.
+/// Pins, points along strokes and, without either, the cage's boundary are the first rows of the
+/// sheet. The others are the arms of pins with frames: ways from the pins to the vertices of their
+/// disks, which turn and scale.
 class SheetHandles {
  public:
   struct Settings {
@@ -22,6 +25,8 @@ class SheetHandles {
                const Settings& settings);
 
   const SheetHolds& holds() const { return holds_; }
+  /// The rows that move: those of pins, strokes and the cage.
+  std::vector<SheetRow> moving_rows() const;
   /// The pins that act, which have the first rows, and where they lie in the mesh.
   const std::vector<size_t>& pins() const { return handles_.pins(); }
   const std::vector<Location>& places() const { return places_; }
@@ -35,7 +40,7 @@ class SheetHandles {
   struct Target {
     VectorXc displacements;       ///< of the rows
     std::vector<Complex> frames;  ///< log scale + i angle, for each pin with a frame
-    Turns turns;                  ///< of the pins
+    Turns turns;                  ///< of the pins; none for those with frames
 
     /// The farthest way of a row, and the largest rotation of a pin or a frame.
     double farthest() const;
@@ -44,16 +49,30 @@ class SheetHandles {
   };
   /// Throws Error if check_pose does.
   Target target(const Pose& pose) const;
+  /// The rotation of a pin: that of its frame, or else its turn, or 0.
+  double turn(size_t row, const Target& target) const;
   /// The rigid motion that takes all handles to their targets up to rounding, or nothing if none
   /// exists. At rest, the motion is exactly the identity.
   std::optional<Similarity> rigid(const Target& target) const;
-  /// Where the rows are after this part of the straight way from rest to their targets.
+  /// Where pins, strokes and the cage are after this part of the straight way from rest to their
+  /// targets.
   Points straight(const Target& target, double part) const;
-  /// The pull at a part of the way, where the rows are at these points. Pins with turns also turn
-  /// the disks around them, with this part of the pull of a frame.
-  SheetPull pull(const Target& target, const Points& at, double part, double guide) const;
+  /// The pull at a part of the way, where pins, strokes and the cage are to be at these points.
+  /// `turns` are the rotations of the picture at the pins. Frames turn it on from there by a
+  /// twelfth of a turn at most, since what cannot follow a ring would snap to the other side if
+  /// that is nearer.
+  SheetPull pull(const Target& target, const Points& at, double part,
+                 const std::vector<double>& turns) const;
   /// The pull at the end.
-  SheetPull pull(const Target& target) const { return pull(target, straight(target, 1), 1, 0); }
+  SheetPull pull(const Target& target, const std::vector<double>& turns) const {
+    return pull(target, straight(target, 1), 1, turns);
+  }
+  /// Whether a frame is farther from its target than it pulls.
+  bool is_behind(const Target& target, const std::vector<double>& turns) const;
+  /// Adds what turns the disks around pins with turns, at a part of the way where the map is f.
+  /// `strength` is in units of the pull of a frame.
+  void add_turns(const Target& target, double part, double strength, const VectorXc& f,
+                 SheetPull& pull) const;
   /// The image of a row.
   Complex image(size_t row, const VectorXc& f) const { return holds_.rows[row].image(f); }
   /// Whether a row's spring gives way where it misses its target by this.
@@ -73,6 +92,10 @@ class SheetHandles {
                       const Settings& settings) const;
   Spring spring(size_t row, const Target& target) const;
   Disk disk_of(const Rest& rest, size_t row) const;
+  bool is_framed(size_t row) const { return std::ranges::find(framed_, row) != framed_.end(); }
+  SheetRow arm(size_t row, int vertex) const;
+  Complex arm_at_rest(size_t row, int vertex) const;
+  Spring arm_spring(size_t row, double share) const;
   void add_frame(const Rest& rest);
   void hold_beyond(double radius);
 
@@ -82,7 +105,7 @@ class SheetHandles {
   SheetHolds holds_;
   std::vector<Spring> springs_;  ///< of the rows, where these are far from rest
   std::vector<Location> places_;
-  std::vector<Disk> guides_;    ///< around all pins
+  std::vector<Disk> disks_;     ///< around all pins
   std::vector<size_t> framed_;  ///< the rows of pins with frames
 };
 

@@ -85,15 +85,6 @@ class SheetInterval final : public MotionInterval {
       spring = spring.firm();
       target = solver().handles().image(row, f) + ((1 - u) * at(from) + u * at(to)) / spring.weight;
     }
-    for (size_t k = 0; k < pull.vertices.size(); ++k) {
-      auto& [vertex, target, spring] = pull.vertices[k];
-      const auto at = [&, v = vertex](const SheetKey& key) {
-        const VertexPull& there = key.pull.vertices[k];
-        return force(there.spring, there.target - key.shape.f[v]);
-      };
-      spring = spring.firm();
-      target = f[vertex] + ((1 - u) * at(from) + u * at(to)) / spring.weight;
-    }
     return pull;
   }
 
@@ -143,7 +134,8 @@ class SheetMotion final : public ProvedMotion {
     Inbetween::Shape shape = setting_->between->shape_of(found->state.f, 0);
     const double turns = std::round((key->rotation - shape.logarithm.imag().mean()) / (2 * kPi));
     if (turns != 0) shape = setting_->between->shape_of(found->state.f, static_cast<int>(turns));
-    return SheetKey{std::move(shape), solver.handles().pull(solver.handles().target(*key->pose)),
+    return SheetKey{std::move(shape),
+                    solver.handles().pull(solver.handles().target(*key->pose), found->state.turns),
                     key->time};
   }
 

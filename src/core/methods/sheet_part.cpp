@@ -5,6 +5,7 @@
 #include "core/methods/notes.h"
 #include "core/methods/parameters.h"
 #include "core/methods/sheet_motion.h"
+#include "core/methods/sheet_release.h"
 
 namespace holomorph {
 namespace {
@@ -30,21 +31,27 @@ SheetPart::SheetPart(const Rest& rest, std::vector<size_t> numbers, const Points
 
 SheetPart::Found SheetPart::deform(const Pose& pose, const EvalOptions& options,
                                    const Solution* from) const {
-  const SheetHandles::Target target = handles().target(pose);
+  SheetHandles::Target target = handles().target(pose);
   const auto* before = dynamic_cast<const SheetSolution*>(from);
   const auto solution = std::make_shared<SheetSolution>();
   solution->solver = solver_;
   Found found;
+  std::optional<ReleasedSheet> better;
   if (const auto rigid = handles().rigid(target)) {
     solution->state = moved(*rigid, target);
     found.map = rigid_map(*rigid, options);
     for (const Complex& z : anchor_points_)
       found.anchors.push_back({(*rigid)(z), rigid->factor, 0});
   } else {
-    if (options.draft && before && before->solver == solver_)
-      solution->state = solver_->followed(target, before->state);
-    else
-      solution->state = solver_->solved(target, options.stop);
+    if (before && before->solver != solver_) before = nullptr;
+    solution->state = options.draft && before ? solver_->followed(target, before->state)
+                                              : solver_->solved(target, options.stop);
+    if (options.released && before)
+      better = released_sheet(*solver_, target, before->state, solution->state, options.stop);
+    if (better) {
+      solution->state = better->state;
+      target.turns = better->turns;
+    }
     ProvedSheet sheet(*solver_, solution->state.f);
     found.map = sheet.sampled(places_, options.derivatives);
     for (const Location& at : anchors_) found.anchors.push_back(sheet.map().at(at));
@@ -56,9 +63,13 @@ SheetPart::Found SheetPart::deform(const Pose& pose, const EvalOptions& options,
     }
     found.twisted = !options.draft && is_twisted(target, solution->state, options.stop);
   }
-  found.map.turns.resize(numbers_.size());
-  for (size_t i = 0; i < handles().pins().size(); ++i)
-    found.map.turns[handles().pins()[i]] = solution->state.turns[i];
+  const auto of_pins = [&](const auto& turns) {
+    Turns all(numbers_.size());
+    for (size_t i = 0; i < turns.size(); ++i) all[handles().pins()[i]] = turns[i];
+    return all;
+  };
+  found.map.turns = of_pins(solution->state.turns);
+  if (better) found.map.better_turns = of_pins(better->turns);
   found.solution = solution;
   return found;
 }
@@ -84,7 +95,7 @@ SheetState SheetPart::moved(const Similarity& rigid, const SheetHandles::Target&
   const double turn = std::arg(rigid.factor);
   std::vector<double> turns;
   for (size_t i = 0; i < state.turns.size(); ++i)
-    turns.push_back(std::round((target.turns[i].value_or(0) - turn) / (2 * kPi)));
+    turns.push_back(std::round((handles().turn(i, target) - turn) / (2 * kPi)));
   std::ranges::sort(turns);
   const double whole = turns.empty() ? 0 : turns[turns.size() / 2];
   for (size_t i = 0; i < state.turns.size(); ++i) {

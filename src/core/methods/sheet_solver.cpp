@@ -56,7 +56,7 @@ SheetSolver::SheetSolver(const Rest& rest, const Settings& settings, const Sheet
 SheetState SheetSolver::at_rest() const {
   const Points& z = domain_->mesh->vertices;
   return {Eigen::Map<const VectorXc>(z.data(), static_cast<Index>(z.size())),
-          std::vector<double>(handles_.pins().size(), 0)};
+          std::vector<double>(handles_.pins().size(), 0), false};
 }
 
 /// Newton steps, in which no rotation can change by half a turn.
@@ -71,12 +71,15 @@ void SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state,
       turn += std::arg(energy_->strain(triangle, f).fz * std::polar(1.0, -turn));
     }
   };
-  program_->minimize(pull, state.f, most, after, kTolerance);
+  constexpr double kRests = 1e-5;  // of the value
+  const SheetProgram::Step last =
+      program_->minimize(pull, state.f, most, after, kTolerance, state.rests);
+  state.rests = last.length > 0.5 && last.decrement <= kRests * last.value;
 }
 
 const ConformalPaths& SheetSolver::paths() const {
   std::call_once(paths_once_, [this] {
-    paths_ = std::make_unique<const ConformalPaths>(domain_->mesh, handles_.holds().rows);
+    paths_ = std::make_unique<const ConformalPaths>(domain_->mesh, handles_.moving_rows());
   });
   return *paths_;
 }
@@ -96,20 +99,24 @@ SheetState SheetSolver::solved(const SheetHandles::Target& target,
   const double largest = handles_.pins().empty() ? path.end.logarithm.imag().cwiseAbs().maxCoeff()
                                                  : turned.largest_turn();
   SheetState state;
-  if (largest < kFar || !agrees) {
+  if (!agrees) {
+    const ConformalPaths::Path wound = wound_path(turned.turns);
+    state = reached(target, &wound, stop);
+  } else if (largest < kFar) {
     state = reached(target, nullptr, stop);
   } else {
     state = reached(turned, &path, stop);
     if (std::ranges::none_of(target.turns, is_given)) {
       SheetState straight = reached(target, nullptr, stop);
-      const SheetPull pull = handles_.pull(target);
-      if (program_->value(straight.f, pull) < program_->value(state.f, pull))
-        state = std::move(straight);
+      const auto cost = [&](const SheetState& at) {
+        return program_->value(at.f, handles_.pull(target, at.turns));
+      };
+      if (cost(straight) < cost(state)) state = std::move(straight);
     }
   }
   if (!settings_.exact) return state;
   constexpr double kReached = 0.02, kMet = 1e-9;  // of the size
-  const SheetPull pull = handles_.pull(target);
+  const SheetPull pull = handles_.pull(target, state.turns);
   std::vector<char> reached;
   for (size_t i = 0; i < handles_.pins().size(); ++i)
     reached.push_back(std::abs(handles_.image(i, state.f) - pull.rows[i].target) <=
@@ -124,7 +131,13 @@ SheetState SheetSolver::reached(const SheetHandles::Target& target,
                                 const std::stop_token& stop) const {
   constexpr double kWay = 0.1, kTurn = 0.35;  // of a step, in units of the size and in radians
   constexpr double kMostSteps = 24;
+  constexpr int kGentle = 4;
   SheetState state = at_rest();
+  const auto step_to = [&](const Points& at, double part, double strength) {
+    SheetPull pull = handles_.pull(target, at, part, state.turns);
+    handles_.add_turns(target, part, strength, state.f, pull);
+    minimize(pull, 1, state, stop);
+  };
   const int steps =
       static_cast<int>(std::clamp(std::ceil(std::max(target.farthest() / (kWay * domain_->size),
                                                      target.largest_turn() / kTurn)),
@@ -138,20 +151,43 @@ SheetState SheetSolver::reached(const SheetHandles::Target& target,
         at[row] = handles_.image(row, f) +
                   part * (handles_.wanted(row, target) - handles_.image(row, path->end.f));
     }
-    minimize(handles_.pull(target, at, part, 1), 1, state, stop);
+    step_to(at, part, 1);
   }
   // Let go of the turns gently, or the picture springs back farther than it has to.
   if (target.has_turns())
-    for (const double guide : {0.1, 0.01, 0.001})
-      minimize(handles_.pull(target, handles_.straight(target, 1), 1, guide), 4, state, stop);
-  constexpr int kMost = 100;
-  minimize(handles_.pull(target), kMost, state, stop);
-  return state;
+    for (const double strength : {0.1, 0.01, 0.001})
+      for (int step = 0; step < kGentle; ++step) step_to(handles_.straight(target, 1), 1, strength);
+  return settled(target, std::move(state), stop);
+}
+
+ConformalPaths::Path SheetSolver::wound_path(const Turns& turns) const {
+  std::vector<std::pair<Location, double>> given;
+  for (size_t i = 0; i < turns.size(); ++i)
+    if (turns[i]) given.emplace_back(handles_.places()[i], *turns[i]);
+  return paths().wound(given);
+}
+
+SheetState SheetSolver::settled(const SheetHandles::Target& target, SheetState before,
+                                const std::stop_token& stop) const {
+  constexpr int kMost = 100, kMostBehind = 200;
+  constexpr double kStill = 1e-7;  // of the size
+  for (int step = 0; step < kMostBehind; ++step) {
+    throw_if_stopped(stop);
+    if (!handles_.is_behind(target, before.turns)) {
+      minimize(handles_.pull(target, before.turns), kMost, before, stop);
+      if (!handles_.is_behind(target, before.turns)) break;
+    }
+    const VectorXc f = before.f;
+    before = followed(target, std::move(before));
+    if ((before.f - f).cwiseAbs().maxCoeff() < kStill * domain_->size) break;
+  }
+  return before;
 }
 
 SheetState SheetSolver::followed(const SheetHandles::Target& target, SheetState before) const {
-  constexpr int kSteps = 1;
-  minimize(handles_.pull(target), kSteps, before);
+  // A frame that is behind moves its target on. Only projected steps do not go too far then.
+  before.rests = before.rests && !handles_.is_behind(target, before.turns);
+  minimize(handles_.pull(target, before.turns), 1, before);
   return before;
 }
 
@@ -179,7 +215,7 @@ VectorXc SheetSolver::relaxed(const SheetPull& pull, const std::vector<char>& me
                               VectorXc f) const {
   constexpr int kMost = 20;
   constexpr double kWithin = 1e-7;
-  SheetState state{std::move(f), {}};
+  SheetState state{std::move(f), {}, false};
   minimize(pull, kMost, state);
   meet(pull, met, kWithin, state);
   return std::move(state.f);

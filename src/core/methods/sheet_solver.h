@@ -15,6 +15,7 @@ namespace holomorph {
 struct SheetState {
   VectorXc f;                 ///< at the mesh's vertices
   std::vector<double> turns;  ///< of the pins: rotations of the picture there, unwrapped
+  bool rests = false;         ///< whether the last step hardly lowered the energy
 };
 
 class SheetSolver;
@@ -44,11 +45,14 @@ class SheetSolver {
 
   /// The map of a target. It depends on nothing else: the handles go there from rest in many small
   /// steps, and pins with turns also turn the picture. If they are to turn far, they follow a
-  /// conformal path. If no pin has a turn, the map is the better one of those with and without such
-  /// a path. Throws Stopped.
+  /// conformal path, or one that winds the picture up if that turns them otherwise. If no pin has a
+  /// turn, the map is the better one of those with and without such a path. Throws Stopped.
   SheetState solved(const SheetHandles::Target& target, const std::stop_token& stop) const;
-  /// A few steps from a map toward that of a target.
+  /// A step from a map toward that of a target.
   SheetState followed(const SheetHandles::Target& target, SheetState before) const;
+  /// The map of a target to which many steps lead.
+  SheetState settled(const SheetHandles::Target& target, SheetState before,
+                     const std::stop_token& stop) const;
   /// The map near f that a pull leads to, after a few steps. The pins that are marked get to their
   /// targets, to within 1e-7 of the size.
   VectorXc relaxed(const SheetPull& pull, const std::vector<char>& met, VectorXc f) const;
@@ -59,6 +63,7 @@ class SheetSolver {
  private:
   SheetState reached(const SheetHandles::Target& target, const ConformalPaths::Path* path,
                      const std::stop_token& stop) const;
+  ConformalPaths::Path wound_path(const Turns& turns) const;
   const ConformalPaths& paths() const;
   void minimize(const SheetPull& pull, int most, SheetState& state,
                 const std::stop_token& stop = {}) const;

@@ -63,6 +63,41 @@ ConformalPaths::Path ConformalPaths::path(const VectorXc& displacements) const {
   return {std::move(end), least_moving_point(*mesh_, rest_.f, f)};
 }
 
+ConformalPaths::Path ConformalPaths::wound(
+    const std::vector<std::pair<Location, double>>& turns) const {
+  // The smoothest angles with these values (Dirichlet).
+  const Index n = static_cast<Index>(mesh_->vertices.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  VectorXd pull = VectorXd::Zero(n);
+  for (const Triangle& t : mesh_->triangles)
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        entries.emplace_back(t[a], t[b],
+                             dot(opposite_side(*mesh_, t, a), opposite_side(*mesh_, t, b)) /
+                                 (4 * area_of(*mesh_, t)));
+  for (const auto& [at, turn] : turns) {
+    const Triangle& t = mesh_->triangles[static_cast<size_t>(at.triangle)];
+    for (size_t a = 0; a < 3; ++a) {
+      pull[t[a]] += kRows * at.weights[a] * turn;
+      for (size_t b = 0; b < 3; ++b)
+        entries.emplace_back(t[a], t[b], kRows * at.weights[a] * at.weights[b]);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  check(factor.info() == Eigen::Success, "sheet: the Dirichlet energy is definite");
+  const VectorXd angles = factor.solve(pull);
+  Path path{rest_, turns.front().first};
+  for (Index i = 0; i < path.end.logarithm.size(); ++i) {
+    const auto& [a, b, c] = mesh_->triangles[static_cast<size_t>(i)];
+    path.end.logarithm[i] = Complex(0, (angles[a] + angles[b] + angles[c]) / 3);
+  }
+  constexpr double kAlmost = 1 - 1e-9;  // only the end itself has to be known
+  path.end.f = at(path, kAlmost);
+  return path;
+}
+
 VectorXc ConformalPaths::at(const Path& path, double part) const {
   VectorXc f;
   between_.blend({.from = rest_, .to = path.end, .still = &path.still}, part, f);

@@ -21,6 +21,9 @@ class ConformalPaths {
   };
   /// Cost: a sparse solve.
   Path path(const VectorXc& displacements) const;
+  /// A path that winds the picture up: sizes stay, and rotations in radians are those at one or
+  /// more places, and smooth in between. Cost: a sparse factorization.
+  Path wound(const std::vector<std::pair<Location, double>>& turns) const;
   /// The rotation at the end of a path in a triangle, in radians. Rotations are continuous along
   /// the mesh, and small on average.
   static double rotation(const Path& path, int triangle) {

@@ -201,10 +201,9 @@ SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool p
 
 SheetProgram::Step SheetProgram::minimize(const SheetPull& pull, VectorXc& f, int most,
                                           const std::function<void(const VectorXc&)>& after,
-                                          double tolerance) const {
+                                          double tolerance, bool is_near) const {
   constexpr double kNear = 1e-2;  // of the value: a decrement from which on true Hessians are tried
   Step last;
-  bool is_near = false;
   for (int i = 0; i < most; ++i) {
     last = step(pull, f, !is_near);
     if (after) after(f);

@@ -69,10 +69,11 @@ class SheetProgram {
   /// not definite, the step is as with it. Cost: one or two sparse factorizations.
   Step step(const SheetPull& pull, VectorXc& f, bool projected) const;
   /// Steps until the decrement is at most `tolerance` times the value, or at most `most` times.
-  /// Calls `after`, if there is one, with the map after each step.
+  /// Calls `after`, if there is one, with the map after each step. `is_near`: the first step, too,
+  /// need not be projected.
   Step minimize(const SheetPull& pull, VectorXc& f, int most,
-                const std::function<void(const VectorXc&)>& after = {},
-                double tolerance = 1e-10) const;
+                const std::function<void(const VectorXc&)>& after = {}, double tolerance = 1e-10,
+                bool is_near = false) const;
 
   const SheetEnergy& energy() const { return *energy_; }
 

@@ -88,11 +88,14 @@ TEST_CASE("Puppets: frames of random drags are proved, and a file decides what i
         const Puppet puppet = random_puppet(random);
         ++drags;
         const auto deformer = method.prepare(puppet.rest, nullptr);
-        const Dragged drag = dragged(puppet, *deformer, random);
+        Dragged drag = dragged(puppet, *deformer, random);
         CHECK(drag.proved);
         slowest_draft = std::max(slowest_draft, drag.slowest_ms);
         const double start = now_ms();
-        const SampledMap released = deformer->deform(drag.pose, {}, drag.last.solution.get());
+        const SampledMap released =
+            deformer->deform(drag.pose, {.released = true}, drag.last.solution.get());
+        for (size_t p = 0; p < released.better_turns.size(); ++p)
+          drag.pose.pins[p].turn = released.better_turns[p];
         slowest_final = std::max(slowest_final, now_ms() - start);
         CHECK(released.status == SampledMap::Status::certified);
         // Another program, another history.
