@@ -95,6 +95,27 @@ TEST_CASE("Releases: turns that lead away from the draft are replaced by those t
   CHECK(replaced >= seeds.size() / 8);
 }
 
+TEST_CASE("Drafts come to rest in a few steps") {
+  int steps = 0;
+  constexpr int kDrags = 12;
+  for (unsigned i = 0; i < kDrags; ++i) {
+    std::mt19937 random(7 + 1000003u * i);
+    const Puppet puppet = random_puppet(random);
+    Drag drag(puppet.rest);
+    const Complex way = 0.25 * puppet.size * std::polar(1.0, 0.01 * (random() % 628));
+    for (int k = 1; k <= 25; ++k) {
+      drag.pose.pins[0].position = puppet.rest.pins[0].position + k / 25.0 * way;
+      drag.step();
+    }
+    for (double apart = 1; apart > 1e-9 && steps < 1000; ++steps) {
+      const SampledMap before = drag.shown;
+      drag.step();
+      apart = drag.apart(before);
+    }
+  }
+  CHECK(steps <= 14 * kDrags);  // 18 with projected steps only
+}
+
 TEST_CASE("Rings: a photograph that cannot follow a ring stops, and does not snap back") {
   for (const unsigned seed : seeds_of("rings in photographs", {1, 2, 3})) {
     CAPTURE(seed);
