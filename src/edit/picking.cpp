@@ -83,8 +83,12 @@ double rotation_at(const Workspace& workspace, Index pin) {
   const Deformation& deformation = workspace.shown.deformation();
   const Pin& own = deformation.pins[pin];
   if (own.angle) return *own.angle;
+  const double before = own.turn.value_or(0);
   const auto turn = workspace.map().pin_turn(deformation, static_cast<size_t>(pin));
-  return turn.value_or(own.turn.value_or(0));
+  if (!turn) return before;
+  return workspace.map().map().turns.empty()
+             ? *turn + 2 * kPi * std::round((before - *turn) / (2 * kPi))
+             : *turn;
 }
 
 std::optional<CageHit> edge_at(const Workspace& workspace, Complex px) {

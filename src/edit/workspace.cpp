@@ -2,6 +2,7 @@
 #include "edit/workspace.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/polyline.h"
 #include "scene/check_scene.h"
@@ -75,31 +76,41 @@ Deformation Workspace::with_turns(Deformation deformation) const {
   return deformation;
 }
 
-/// Stores the turns that were found when a drag was released, in the step of that drag.
+/// Once a drag that was released has its final map, stores the turns that were found with it.
 void Workspace::adopt_better_turns() {
   const LiveMap& live = map();
+  if (!released_ || live.busy() || live.shows_draft() || live.posed() != released_) return;
+  const Deformation before = *std::exchange(released_, std::nullopt);
   const auto& turns = live.map().better_turns;
-  if (turns.empty() || shown.preview || live.posed() != document.scene().deformation() ||
-      !document.history().can_undo())
-    return;
-  Deformation deformation = *live.posed();
-  for (size_t i = 0; i < turns.size(); ++i) deformation.pins[i].turn = turns[i];
-  document.amend(with_deformation(document.scene(), std::move(deformation)));
+  if (turns.empty()) return;
+  Deformation after = before;
+  for (size_t i = 0; i < turns.size(); ++i) after.pins[i].turn = turns[i];
+  document.revise(document.scene().layer().id, before, after);
+}
+
+/// Enters a deformation. If it was dragged, its pins get the turns that the drag has led to. `put`
+/// also gets the displayed time.
+bool Workspace::enter_dragged(Deformation deformation, EditBase base,
+                              const std::function<void(Scene, const std::optional<double>&)>& put) {
+  const bool dragged = shown.preview == deformation;
+  if (dragged) deformation = with_turns(std::move(deformation));
+  shown.preview.reset();
+  const bool entered = enter(with_deformation(document.scene(), deformation), base,
+                             [&, at = shown.time()](Scene scene) { put(std::move(scene), at); });
+  if (entered && dragged && shown.own() == deformation) released_ = std::move(deformation);
+  return entered;
 }
 
 bool Workspace::commit(const std::string& label, Deformation deformation, EditBase base) {
-  if (shown.preview == deformation) deformation = with_turns(std::move(deformation));
   mergeable_selection_.reset();
-  shown.preview.reset();
-  const std::optional<double> at = shown.time();
-  return enter(with_deformation(document.scene(), std::move(deformation)), base,
-               [&](Scene entered) { document.commit(label, std::move(entered), at); });
+  return enter_dragged(std::move(deformation), base, [&](Scene scene, const auto& at) {
+    document.commit(label, std::move(scene), at);
+  });
 }
 
 bool Workspace::amend(Deformation deformation, EditBase base) {
-  if (shown.preview == deformation) deformation = with_turns(std::move(deformation));
-  return enter(with_deformation(document.scene(), std::move(deformation)), base,
-               [&](Scene entered) { document.amend(std::move(entered)); });
+  return enter_dragged(std::move(deformation), base,
+                       [&](Scene scene, const auto&) { document.amend(std::move(scene)); });
 }
 
 bool Workspace::commit_layers(const std::string& label, Scene scene) {
@@ -267,6 +278,8 @@ std::vector<OnionSkin> Workspace::onion_skins() const {
 bool Workspace::update_map(EvalOptions options) {
   const Deformation& own = shown.own();
   const std::optional<double> time = shown.time();
+  if (released_ && (shown.preview || own != *released_)) released_.reset();
+  options.released = released_.has_value();
   const bool others = maps.update_others(document.scene(), shown.moment_of_layers());
   const bool changed =
       map().update(shown.preview ? *shown.preview : own, options, shown.moment()) || others;
@@ -277,7 +290,7 @@ bool Workspace::update_map(EvalOptions options) {
   if (!time || (shown.is_timed() && !fits(own, whole_pose_of(shown.base())))) shown.set_timed({});
   if (time && map().posed() == own) shown.set_timed(map().timed());
   prune_selection();  // the degrees of posed segments may vary with time
-  if (changed) adopt_better_turns();
+  adopt_better_turns();
   return changed;
 }
 

@@ -206,6 +206,8 @@ struct Workspace {
  private:
   using Put = std::function<void(Scene)>;
   bool enter(Scene scene, EditBase base, const Put& put);
+  bool enter_dragged(Deformation deformation, EditBase base,
+                     const std::function<void(Scene, const std::optional<double>&)>& put);
   Deformation keyed(Deformation deformation);
   bool continues_step(const std::string& label) const;
   bool changes_closed_layer(const Scene& scene) const;
@@ -215,6 +217,8 @@ struct Workspace {
   bool accepts(const Scene& scene);
 
   std::optional<Selection> mergeable_selection_;  ///< at the step that may be amended
+  /// What a drag has just entered, until its final map is known.
+  std::optional<Deformation> released_;
   mutable FoldFinder fold_finder_;
   Points visited_folds_;  ///< the folds that show_next_fold visits
   size_t fold_ = 0;

@@ -93,6 +93,10 @@ class Document {
   /// Replaces the scene of the current step instead of adding a step. Do not call it on the first
   /// entry.
   void amend(Scene scene) { history_.amend(std::move(scene)); }
+  /// Replaces a layer's deformation by an equivalent one in all steps that have it.
+  void revise(int layer, const Deformation& from, const Deformation& to) {
+    history_.revise(layer, from, to);
+  }
   /// Makes another layer the edited one. This is not a step of the history.
   void select_layer(size_t number) {
     Scene selected = scene();

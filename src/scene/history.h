@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/layers.h"
 #include "scene/scene.h"
 
 namespace holomorph {
@@ -40,6 +41,16 @@ class History {
   /// Replaces the current scene with an equivalent one. Scenes that were undone can still be
   /// redone.
   void replace(Scene scene) { entries_[index_].scene = std::move(scene); }
+  /// Replaces a layer's deformation by an equivalent one in all scenes that have it.
+  void revise(int layer, const Deformation& from, const Deformation& to) {
+    for (Entry& entry : entries_)
+      if (const size_t i = layer_index(entry.scene, layer);
+          i < entry.scene.layers.size() && entry.scene.layers[i]->deformation == from) {
+        Layer revised = *entry.scene.layers[i];
+        revised.deformation = to;
+        entry.scene.layers[i] = SharedLayer(std::move(revised));
+      }
+  }
   bool undo() { return index_ > 0 && (--index_, true); }
   bool redo() { return index_ + 1 < entries_.size() && (++index_, true); }
   void go_to(size_t index) { index_ = std::min(index, entries_.size() - 1); }

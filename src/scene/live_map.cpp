@@ -31,8 +31,10 @@ bool LiveMap::plays(const Deformation& deformation) const {
   return moment_.time && !deformation.keyframes.empty();
 }
 
-/// Whether the map of the deformation's own pose is displayed.
-bool LiveMap::displays(const Deformation& deformation, const EvalOptions& options) const {
+/// Whether the map of the deformation's own pose is displayed. A map that follows a drag and has
+/// other turns is not that of the pose.
+bool LiveMap::displays(const Deformation& deformation, EvalOptions options) const {
+  if (posed_.map.better_turns.empty()) options.released = posed_.options.released;
   return !posed_moment_.time && posed_.deformation && posed_.options == options &&
          same_map(*posed_.deformation, deformation);
 }

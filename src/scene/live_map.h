@@ -75,7 +75,7 @@ class LiveMap {
 
  private:
   bool plays(const Deformation& deformation) const;
-  bool displays(const Deformation& deformation, const EvalOptions& options) const;
+  bool displays(const Deformation& deformation, EvalOptions options) const;
   bool needs_keys(const Deformation& deformation) const;
   bool needs_request(const Deformation& deformation, const EvalOptions& options) const;
   void request(MapRequest request);

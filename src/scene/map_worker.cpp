@@ -104,18 +104,7 @@ void MapWorker::prepare(const MapRequest& request) {
 
 PosedMap MapWorker::posed(const MapRequest& request, const EvalOptions& options) {
   last_ = posed_map(*prepared_, request.deformation, options, last_ ? &*last_ : nullptr);
-  last_->options.released = false;  // the same map for those who ask for it again
-  dragged_ = request.options.draft;
   return *last_;
-}
-
-/// Whether a final map is wanted of the pose that was dragged last. It may have turns now.
-bool MapWorker::releases(const MapRequest& request) const {
-  if (!last_ || !dragged_ || request.options.draft) return false;
-  Pose before = pose_of(*last_->deformation), now = pose_of(request.deformation);
-  for (Pose* pose : {&before, &now})
-    for (PosePin& pin : pose->pins) pin.turn.reset();
-  return before == now;
 }
 
 void MapWorker::answer(const MapRequest& request, unsigned number) {
@@ -134,17 +123,16 @@ void MapWorker::answer(const MapRequest& request, unsigned number) {
     }
     if (!request.keys || !motion_.plays()) {
       const bool iterates = method_named(request.deformation.method).iterates;
-      const bool released = releases(request);
       EvalOptions options = request.options;
       if (iterates && last_ && !options.draft && !options.iteration) {
         options.draft = true;
+        options.released = false;
         found.complete = false;
         found.posed = posed(request, options);
         deliver(found);
         found.complete = true;
       }
       options = request.options;
-      options.released = released;
       if (!options.draft) options.stop = stop;
       found.posed = posed(request, options);
     }

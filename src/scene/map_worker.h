@@ -63,7 +63,6 @@ class MapWorker {
   void improve(const MapRequest& request, unsigned number);
   void prepare(const MapRequest& request);
   PosedMap posed(const MapRequest& request, const EvalOptions& options);
-  bool releases(const MapRequest& request) const;
   void deliver(MapAnswer answer);
   bool is_newest(unsigned number);
   std::stop_token stop_token();
@@ -75,7 +74,6 @@ class MapWorker {
   std::shared_ptr<PreparedMap> prepared_, played_;  ///< played_: prepare_playback has tried it
   std::optional<Deformation> prepared_for_;
   std::optional<PosedMap> last_;
-  bool dragged_ = false;  ///< whether last_ is a draft that a request wanted
   Motion motion_;
 
   std::mutex mutex_;  ///< guards the members below

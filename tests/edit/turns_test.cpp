@@ -118,41 +118,59 @@ TEST_CASE("Puppet: a pin without a turn leaves the other pins wound up") {
   CHECK((workspace.map().map().f - before).cwiseAbs().maxCoeff() < 6);
 }
 
-TEST_CASE("Puppet: a release finds turns that lead to what is shown, and stores them in its step") {
+TEST_CASE("Puppet: where turns lead away from a drag, its final map has better ones") {
   Deformation bar = with_cage(Deformation{}, shapes::rectangle(900, 80));
   bar.method = "sheet";
   for (const Complex z : {Complex(50, 40), Complex(450, 40), Complex(850, 40)})
     bar.pins.push_back({z, z, {}, {}});
   BarDesk desk(bar);
-  Workspace& workspace = desk.workspace;
+  LiveMap& live = desk.workspace.map();
   Deformation released = desk.deformation();
   released.pins[2].pose = {400, 40};
-  workspace.shown.preview = released;
-  workspace.map().finish(released, {.derivatives = false, .draft = true});
-  const VectorXc shown = workspace.map().map().f;
+  live.finish(released, {.derivatives = false, .draft = true});
+  const VectorXc shown = live.map().f;
   // As if the turns of the draft led to a loop.
   released.pins[2].turn = 4.712;
-  const size_t steps = desk.steps();
-  workspace.shown.preview.reset();
-  REQUIRE(workspace.commit("Move", released));
-  desk.update();
-  CHECK(desk.steps() == steps + 1);
-  CHECK(desk.deformation() != released);
-  CHECK((workspace.map().map().f - shown).cwiseAbs().maxCoeff() < 6);
-  for (Pin& pin : released.pins) pin.turn.reset();
-  Deformation stored = desk.deformation();
-  for (Pin& pin : stored.pins) pin.turn.reset();
-  CHECK(stored == released);
-  const auto prepared = prepared_map(desk.deformation(), Precision::single, MeshOptions{500});
-  const SampledMap again = prepared->deformer->deform(pose_of(desk.deformation()), {});
-  CHECK((again.f - workspace.map().map().f).cwiseAbs().maxCoeff() <= 1e-6 * 900);
-  // Opening the step again does not look for other turns.
-  const Deformation kept = desk.deformation();
-  run("edit.undo", workspace);
-  desk.update();
-  run("edit.redo", workspace);
-  desk.update();
-  CHECK(desk.deformation() == kept);
+  live.finish(released, {.released = true});
+  CHECK((live.map().f - shown).cwiseAbs().maxCoeff() < 6);
+  REQUIRE(live.map().better_turns.size() == 3);
+  Deformation better = released;
+  for (size_t i = 0; i < 3; ++i) better.pins[i].turn = live.map().better_turns[i];
+  // What is shown is the map of the better turns, and not that of the pose itself.
+  live.finish(released, {});
+  CHECK(live.map().better_turns.empty());
+  CHECK((live.map().f - shown).cwiseAbs().maxCoeff() > 100);
+  live.finish(better, {});
+  CHECK((live.map().f - shown).cwiseAbs().maxCoeff() < 6);
+}
+
+TEST_CASE("Turns are revised in all steps that have them, and undone steps stay") {
+  BarDesk desk(pinned_bar("sheet"));
+  Document& document = desk.workspace.document;
+  Deformation before = desk.deformation();
+  before.pins[2].turn = 1;
+  desk.workspace.commit("Turn", before);
+  Scene hidden = document.scene();
+  Layer layer = hidden.layer();
+  layer.opacity = 0.5;
+  desk.workspace.commit_layers("Opacity", with_layer(hidden, layer));
+  Deformation later = before;
+  later.pins[0].pose += 1.0;
+  desk.workspace.commit("Later", later);
+  run("edit.undo", desk.workspace);
+  Deformation after = before;
+  after.pins[2].turn = 2;
+  document.revise(document.scene().layer().id, before, after);
+  CHECK(desk.deformation() == after);
+  CHECK(document.scene().layer().opacity == 0.5);
+  REQUIRE(document.history().can_redo());
+  run("edit.redo", desk.workspace);
+  CHECK(desk.deformation() == later);
+  run("edit.undo", desk.workspace);
+  run("edit.undo", desk.workspace);
+  CHECK(desk.deformation() == after);
+  run("edit.undo", desk.workspace);
+  CHECK_FALSE(desk.deformation().pins[2].turn);
 }
 
 TEST_CASE("Pins that another method moves lose their turns") {

@@ -87,6 +87,13 @@ Change track(const std::string& name, double& value, const Number& number, float
   return change_of_item(moved);
 }
 
+/// The range of a number, up to a value beyond it that may be typed.
+std::pair<double, double> range_of(const Number& number, double value) {
+  if (number.typed == 0) return {number.low, number.high};
+  const double far = std::min(std::abs(value), number.typed);
+  return {std::min(number.low, -far), std::max(number.high, far)};
+}
+
 /// The label of a row as something that drags the number.
 Change dragged_label(const std::string& label, double& value, const Number& number,
                      const std::string& hint) {
@@ -105,11 +112,16 @@ Change dragged_label(const std::string& label, double& value, const Number& numb
     changed = value != *number.neutral;
     value = *number.neutral;
   } else if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0) {
-    const double step = ImGui::GetIO().MouseDelta.x;
-    const bool bounded = std::isfinite(number.high - number.low);
-    value = bounded && number.speed == 0 ? value_at(fraction_of(value, number) + step / 200, number)
-                                         : value + step * std::max(number.speed, 1e-9);
-    value = std::clamp(value, number.low, number.high);
+    const double step = ImGui::GetIO().MouseDelta.x, before = value;
+    const double range = number.high - number.low;
+    if (number.speed > 0 || !std::isfinite(range))
+      value += step * std::max(number.speed, 1e-9);
+    else if (value < number.low || value > number.high)
+      value += step * range / 200;
+    else
+      value = value_at(fraction_of(value, number) + step / 200, number);
+    const auto [low, high] = range_of(number, before);
+    value = std::clamp(value, low, high);
     changed = true;
   }
   if (changed) ImGui::MarkItemEdited(ImGui::GetItemID());
@@ -128,9 +140,7 @@ Change number_field(const std::string& name, double& value, const Number& number
   const double speed = number.speed > 0 ? number.speed
                        : bounded        ? (number.high - number.low) / 300
                                         : std::pow(10.0, -number.decimals);
-  const bool goes_far = types && number.typed > 0;
-  const double low = goes_far ? -number.typed : number.low,
-               high = goes_far ? number.typed : number.high;
+  const auto [low, high] = range_of(number, types ? number.typed : value);
   char format[16];
   std::snprintf(format, sizeof format, "%%.%df", number.decimals);
   ImGui::PushStyleColor(ImGuiCol_Text, types ? color_of(theme_colors().text) : ImVec4(0, 0, 0, 0));

@@ -23,7 +23,7 @@ struct Number {
   int decimals = 0;
   bool logarithmic = false;
   std::optional<double> neutral = {};  ///< what a double click on the label sets
-  double typed = 0;  ///< numbers that are typed lie between -typed and typed; 0: as all others
+  double typed = 0;  ///< if not 0, numbers from -typed to typed can be typed, beyond the slider
   double speed = 0;  ///< change per px while the field is dragged; 0: depends on the range
 };
 

@@ -101,7 +101,7 @@ void pin_gap(const Workspace& workspace, Index pin) {
   colored_text(theme_colors().warning, text);
   if (limited)
     tooltip(
-        "The pin gives way rather than stretch the picture farther. To pull it farther, raise "
+        "The pin gives way rather than stretch the picture farther. If you want more, raise "
         "Stretch limit in the method's settings.");
 }
 
@@ -109,12 +109,13 @@ void pin_rows(Workspace& workspace, Index pin) {
   if (workspace.mode == EditMode::rest) return;
   const Pin shown = workspace.shown.deformation().pins[pin];
   ImGui::BeginDisabled(!shown.angle);
-  double degrees = rotation_at(workspace, pin) / kDegree, percent = 100 * shown.scale;
+  double degrees = rotation_at(workspace, pin) / kDegree,
+         percent = shown.angle ? 100 * shown.scale : 100;
   apply_change(
       workspace,
       slider_row("Rotation", degrees,
                  {.low = -180, .high = 180, .unit = "\u00b0", .neutral = 0.0, .typed = 3600},
-                 "Set Rotation to Fixed to use this"),
+                 shown.angle ? "" : "Set Rotation to Fixed to use this"),
       "Rotate pin", [&](const Deformation& s) { return turned(s, pin, degrees * kDegree); });
   apply_change(
       workspace,

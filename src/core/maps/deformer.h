@@ -55,13 +55,13 @@ struct SampledMap {
 struct EvalOptions {
   bool derivatives = false;
   /// Set during drags. Iterative methods may then continue from an earlier solution and stop early.
-  /// Otherwise, the map depends only on the rest and the pose.
+  /// Otherwise, the map depends only on the rest and the pose, with better turns if there are any.
   bool draft = false;
   /// If set, the map is evaluated after this many iterations. Methods that report no energies
   /// ignore this.
   std::optional<int> iteration = {};
-  /// Set for the final map of a pose that was dragged, which follows its last draft. If the turns
-  /// of the pins lead to another map than the draft, better turns are looked for.
+  /// Set for the final map that follows the last draft of a drag. If the turns of the pins lead to
+  /// another map than the draft, better ones are looked for, and the map is theirs.
   bool released = false;
   /// Lets another thread end a slow final answer: `deform` then throws Stopped. Methods that are
   /// fast enough may finish instead.

@@ -124,11 +124,25 @@ std::vector<SheetRow> SheetHandles::moving_rows() const {
   return {holds_.rows.begin(), holds_.rows.begin() + static_cast<Index>(stations().size())};
 }
 
-double SheetHandles::turn(size_t row, const Target& target) const {
+std::optional<double> SheetHandles::turn(size_t row, const Target& target) const {
   const auto framed = std::ranges::find(framed_, row);
-  return framed == framed_.end()
-             ? target.turns[row].value_or(0)
-             : target.frames[static_cast<size_t>(framed - framed_.begin())].imag();
+  if (framed == framed_.end()) return target.turns[row];
+  return target.frames[static_cast<size_t>(framed - framed_.begin())].imag();
+}
+
+int SheetHandles::whole_turns(const Target& target, const std::vector<double>& rotations) const {
+  if (!holds_.fixed.empty()) return 0;
+  std::map<int, int> votes;
+  for (size_t row = 0; row < pins().size(); ++row) {
+    const double wanted = turn(row, target).value_or(rotations[row]);
+    ++votes[static_cast<int>(std::round((wanted - rotations[row]) / (2 * kPi)))];
+  }
+  int best = 0;
+  for (const auto& [turns, count] : votes) {
+    const int most = votes.contains(best) ? votes.at(best) : 0;
+    if (count > most || (count == most && std::abs(turns) < std::abs(best))) best = turns;
+  }
+  return best;
 }
 
 double SheetHandles::Target::farthest() const {
@@ -166,12 +180,12 @@ std::optional<Similarity> SheetHandles::rigid(const Target& target) const {
   }
   if (!holds_.fixed.empty() && from != to) return {};
   const std::optional<Similarity> rigid = rigid_motion(from, to);
-  // A ring that has gone once around twists the picture, unless it turns all of it.
-  const bool turns_all = holds_.fixed.empty() && framed_.size() == stations().size();
-  for (size_t k = 0; rigid && k < framed_.size(); ++k) {
-    const double expected = turns_all ? target.frames[0].imag() : std::arg(rigid->factor);
-    if (std::abs(target.frames[k].imag() - expected) > kPi) return {};
-  }
+  if (!rigid) return {};
+  // A ring that has gone once around twists the picture, unless the picture goes with it.
+  const double turn = std::arg(rigid->factor),
+               all = turn + 2 * kPi * whole_turns(target, std::vector(pins().size(), turn));
+  for (const Complex& frame : target.frames)
+    if (std::abs(frame.imag() - all) > kPi) return {};
   return rigid;
 }
 
@@ -231,11 +245,11 @@ SheetPull SheetHandles::pull(const Target& target, const Points& at, double part
   return pull;
 }
 
-void SheetHandles::add_turns(const Target& target, double part, double strength, const VectorXc& f,
+void SheetHandles::add_turns(const Target& target, double part, double strength,
                              SheetPull& pull) const {
   for (size_t row = 0; row < pins().size(); ++row) {
     if (!target.turns[row] || is_framed(row)) continue;
-    const Complex center = image(row, f), turn = std::polar(1.0, part * *target.turns[row]);
+    const Complex center = pull.rows[row].target, turn = std::polar(1.0, part * *target.turns[row]);
     for (const auto& [v, share] : disks_[row])
       pull.vertices.push_back(
           {v, center + turn * arm_at_rest(row, v), arm_spring(row, strength * share).firm()});

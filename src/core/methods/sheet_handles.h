@@ -30,6 +30,7 @@ class SheetHandles {
   /// The pins that act, which have the first rows, and where they lie in the mesh.
   const std::vector<size_t>& pins() const { return handles_.pins(); }
   const std::vector<Location>& places() const { return places_; }
+  bool is_framed(size_t row) const { return std::ranges::find(framed_, row) != framed_.end(); }
   const std::string& note() const { return handles_.note(); }
   bool moves_cage() const { return handles_.moves_cage(); }
 
@@ -49,8 +50,11 @@ class SheetHandles {
   };
   /// Throws Error if check_pose does.
   Target target(const Pose& pose) const;
-  /// The rotation of a pin: that of its frame, or else its turn, or 0.
-  double turn(size_t row, const Target& target) const;
+  /// The rotation of a pin: that of its frame, or else its turn, if it has one.
+  std::optional<double> turn(size_t row, const Target& target) const;
+  /// The whole turns that most pins ask for in addition to these rotations, one for each pin: 0 if
+  /// something is fixed, and so cannot turn.
+  int whole_turns(const Target& target, const std::vector<double>& rotations) const;
   /// The rigid motion that takes all handles to their targets up to rounding, or nothing if none
   /// exists. At rest, the motion is exactly the identity.
   std::optional<Similarity> rigid(const Target& target) const;
@@ -69,10 +73,9 @@ class SheetHandles {
   }
   /// Whether a frame is farther from its target than it pulls.
   bool is_behind(const Target& target, const std::vector<double>& turns) const;
-  /// Adds what turns the disks around pins with turns, at a part of the way where the map is f.
-  /// `strength` is in units of the pull of a frame.
-  void add_turns(const Target& target, double part, double strength, const VectorXc& f,
-                 SheetPull& pull) const;
+  /// Adds what turns the disks around pins with turns at a part of the way. `strength` is in units
+  /// of the pull of a frame, and nothing of this gives way.
+  void add_turns(const Target& target, double part, double strength, SheetPull& pull) const;
   /// The image of a row.
   Complex image(size_t row, const VectorXc& f) const { return holds_.rows[row].image(f); }
   /// Whether a row's spring gives way where it misses its target by this.
@@ -92,7 +95,6 @@ class SheetHandles {
                       const Settings& settings) const;
   Spring spring(size_t row, const Target& target) const;
   Disk disk_of(const Rest& rest, size_t row) const;
-  bool is_framed(size_t row) const { return std::ranges::find(framed_, row) != framed_.end(); }
   SheetRow arm(size_t row, int vertex) const;
   Complex arm_at_rest(size_t row, int vertex) const;
   Spring arm_spring(size_t row, double share) const;

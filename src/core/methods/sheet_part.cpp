@@ -63,13 +63,14 @@ SheetPart::Found SheetPart::deform(const Pose& pose, const EvalOptions& options,
     }
     found.twisted = !options.draft && is_twisted(target, solution->state, options.stop);
   }
-  const auto of_pins = [&](const auto& turns) {
-    Turns all(numbers_.size());
-    for (size_t i = 0; i < turns.size(); ++i) all[handles().pins()[i]] = turns[i];
-    return all;
-  };
-  found.map.turns = of_pins(solution->state.turns);
-  if (better) found.map.better_turns = of_pins(better->turns);
+  const std::vector<size_t>& pins = handles().pins();
+  found.map.turns.resize(numbers_.size());
+  for (size_t i = 0; i < pins.size(); ++i) found.map.turns[pins[i]] = solution->state.turns[i];
+  if (better) {
+    for (const PosePin& pin : pose.pins) found.map.better_turns.push_back(pin.turn);
+    for (size_t i = 0; i < pins.size(); ++i)
+      if (!handles().is_framed(i)) found.map.better_turns[pins[i]] = better->turns[i];
+  }
   found.solution = solution;
   return found;
 }
@@ -87,20 +88,15 @@ std::shared_ptr<const ProvedMotion> SheetPart::motion() const {
   return sheet_motion(solver_, std::move(places));
 }
 
-/// A map that moves all of the part. All pins have the same turn, which is that of most targets.
+/// A map that moves all of the part. All pins have the same turn.
 SheetState SheetPart::moved(const Similarity& rigid, const SheetHandles::Target& target) const {
   SheetState state = solver_->at_rest();
   if (!is_identity(rigid))
     for (Complex& z : state.f) z = rigid(z);
   const double turn = std::arg(rigid.factor);
-  std::vector<double> turns;
-  for (size_t i = 0; i < state.turns.size(); ++i)
-    turns.push_back(std::round((handles().turn(i, target) - turn) / (2 * kPi)));
-  std::ranges::sort(turns);
-  const double whole = turns.empty() ? 0 : turns[turns.size() / 2];
-  for (size_t i = 0; i < state.turns.size(); ++i) {
-    state.turns[i] = turn + 2 * kPi * whole;
-  }
+  state.turns.assign(state.turns.size(), turn);
+  const int whole = handles().whole_turns(target, state.turns);
+  for (double& each : state.turns) each += 2 * kPi * whole;
   return state;
 }
 

@@ -11,13 +11,15 @@ struct ReleasedSheet {
   SheetState state;
 };
 
-/// The turns of the last draft usually lead to its map. Where they lead elsewhere, to `final`,
-/// others are tried: none, those with a pin turned once more or less, and those with a pin left
-/// free or alone. Returns those that lead to the draft, or else much nearer to it. None if there
-/// are none. Cost: a draft, or up to 17 final maps if the two differ. Throws Stopped.
+/// The turns of the last draft usually lead to its map. Where the map that they lead to, `found`,
+/// is another one, other turns are tried: those of the draft once it is at rest, none, and those
+/// with a pin turned once more or once less, left free, or alone. Returns the first ones that lead
+/// to the draft, or else those that lead to the map nearest to it, if that is at most half as far
+/// from it as `found`. Cost: up to 300 steps, and up to 18 final maps where the maps differ. Throws
+/// Stopped.
 std::optional<ReleasedSheet> released_sheet(const SheetSolver& solver,
                                             const SheetHandles::Target& target,
-                                            const SheetState& draft, const SheetState& final,
+                                            const SheetState& draft, const SheetState& found,
                                             const std::stop_token& stop);
 
 }  // namespace holomorph

@@ -56,12 +56,12 @@ SheetSolver::SheetSolver(const Rest& rest, const Settings& settings, const Sheet
 SheetState SheetSolver::at_rest() const {
   const Points& z = domain_->mesh->vertices;
   return {Eigen::Map<const VectorXc>(z.data(), static_cast<Index>(z.size())),
-          std::vector<double>(handles_.pins().size(), 0), false};
+          std::vector<double>(handles_.pins().size(), 0)};
 }
 
 /// Newton steps, in which no rotation can change by half a turn.
-void SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state,
-                           const std::stop_token& stop) const {
+SheetProgram::Step SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state,
+                                         const std::stop_token& stop, bool is_near) const {
   constexpr double kTolerance = 1e-12;  // the last step is still taken
   const auto after = [&](const VectorXc& f) {
     throw_if_stopped(stop);
@@ -71,10 +71,8 @@ void SheetSolver::minimize(const SheetPull& pull, int most, SheetState& state,
       turn += std::arg(energy_->strain(triangle, f).fz * std::polar(1.0, -turn));
     }
   };
-  constexpr double kRests = 1e-5;  // of the value
-  const SheetProgram::Step last =
-      program_->minimize(pull, state.f, most, after, kTolerance, state.rests);
-  state.rests = last.length > 0.5 && last.decrement <= kRests * last.value;
+  state.rests_at.clear();
+  return program_->minimize(pull, state.f, most, after, kTolerance, is_near);
 }
 
 const ConformalPaths& SheetSolver::paths() const {
@@ -88,19 +86,27 @@ SheetState SheetSolver::solved(const SheetHandles::Target& target,
                                const std::stop_token& stop) const {
   constexpr double kFar = 0.7, kNear = 1.5;  // radians
   const auto is_given = [](const auto& turn) { return turn.has_value(); };
-  const ConformalPaths::Path path = paths().path(target.displacements);
+  ConformalPaths::Path path = paths().path(target.displacements);
+  std::vector<double> rotations;
+  for (const Location& place : handles_.places())
+    rotations.push_back(ConformalPaths::rotation(path, place.triangle));
+  const int whole = handles_.whole_turns(target, rotations);
+  path = ConformalPaths::turned(std::move(path), whole);
+  // Frames turn what is around them on any path.
   SheetHandles::Target turned = target;
   bool agrees = true;
-  for (size_t i = 0; i < handles_.pins().size(); ++i) {
-    const double turn = ConformalPaths::rotation(path, handles_.places()[i].triangle);
-    agrees = agrees && std::abs(turn - target.turns[i].value_or(turn)) < kNear;
-    if (!turned.turns[i]) turned.turns[i] = turn;
+  for (size_t i = 0; i < rotations.size(); ++i) {
+    rotations[i] += 2 * kPi * whole;
+    const auto& turn = target.turns[i];
+    agrees = agrees && std::abs(rotations[i] - turn.value_or(rotations[i])) < kNear;
+    turned.turns[i] = turn.value_or(rotations[i]);
+    rotations[i] = handles_.turn(i, target).value_or(rotations[i]);
   }
-  const double largest = handles_.pins().empty() ? path.end.logarithm.imag().cwiseAbs().maxCoeff()
-                                                 : turned.largest_turn();
+  const double largest =
+      rotations.empty() ? path.end.logarithm.imag().cwiseAbs().maxCoeff() : turned.largest_turn();
   SheetState state;
   if (!agrees) {
-    const ConformalPaths::Path wound = wound_path(turned.turns);
+    const ConformalPaths::Path wound = paths().wound(handles_.places(), rotations);
     state = reached(target, &wound, stop);
   } else if (largest < kFar) {
     state = reached(target, nullptr, stop);
@@ -114,7 +120,11 @@ SheetState SheetSolver::solved(const SheetHandles::Target& target,
       if (cost(straight) < cost(state)) state = std::move(straight);
     }
   }
-  if (!settings_.exact) return state;
+  if (settings_.exact) meet_within_reach(target, state);
+  return state;
+}
+
+void SheetSolver::meet_within_reach(const SheetHandles::Target& target, SheetState& state) const {
   constexpr double kReached = 0.02, kMet = 1e-9;  // of the size
   const SheetPull pull = handles_.pull(target, state.turns);
   std::vector<char> reached;
@@ -122,7 +132,6 @@ SheetState SheetSolver::solved(const SheetHandles::Target& target,
     reached.push_back(std::abs(handles_.image(i, state.f) - pull.rows[i].target) <=
                       kReached * domain_->size);
   meet(pull, reached, kMet, state);
-  return state;
 }
 
 /// Follows a conformal path, or straight ways.
@@ -135,7 +144,7 @@ SheetState SheetSolver::reached(const SheetHandles::Target& target,
   SheetState state = at_rest();
   const auto step_to = [&](const Points& at, double part, double strength) {
     SheetPull pull = handles_.pull(target, at, part, state.turns);
-    handles_.add_turns(target, part, strength, state.f, pull);
+    handles_.add_turns(target, part, strength, pull);
     minimize(pull, 1, state, stop);
   };
   const int steps =
@@ -157,37 +166,44 @@ SheetState SheetSolver::reached(const SheetHandles::Target& target,
   if (target.has_turns())
     for (const double strength : {0.1, 0.01, 0.001})
       for (int step = 0; step < kGentle; ++step) step_to(handles_.straight(target, 1), 1, strength);
-  return settled(target, std::move(state), stop);
+  settle(target, state, stop);
+  return state;
 }
 
-ConformalPaths::Path SheetSolver::wound_path(const Turns& turns) const {
-  std::vector<std::pair<Location, double>> given;
-  for (size_t i = 0; i < turns.size(); ++i)
-    if (turns[i]) given.emplace_back(handles_.places()[i], *turns[i]);
-  return paths().wound(given);
+void SheetSolver::settle(const SheetHandles::Target& target, SheetState& state,
+                         const std::stop_token& stop) const {
+  constexpr int kMost = 100, kMostSteps = 200;
+  constexpr double kStill = 1e-7;  // of the size
+  for (int step = 0; step < kMostSteps; ++step) {
+    throw_if_stopped(stop);
+    if (!handles_.is_behind(target, state.turns)) {
+      minimize(handles_.pull(target, state.turns), kMost, state, stop);
+      if (!handles_.is_behind(target, state.turns)) break;
+    }
+    const VectorXc before = state.f;
+    state = followed(target, std::move(state));
+    if ((state.f - before).cwiseAbs().maxCoeff() < kStill * domain_->size) break;
+  }
 }
 
 SheetState SheetSolver::settled(const SheetHandles::Target& target, SheetState before,
                                 const std::stop_token& stop) const {
-  constexpr int kMost = 100, kMostBehind = 200;
-  constexpr double kStill = 1e-7;  // of the size
-  for (int step = 0; step < kMostBehind; ++step) {
-    throw_if_stopped(stop);
-    if (!handles_.is_behind(target, before.turns)) {
-      minimize(handles_.pull(target, before.turns), kMost, before, stop);
-      if (!handles_.is_behind(target, before.turns)) break;
-    }
-    const VectorXc f = before.f;
-    before = followed(target, std::move(before));
-    if ((before.f - f).cwiseAbs().maxCoeff() < kStill * domain_->size) break;
-  }
+  settle(target, before, stop);
+  if (settings_.exact) meet_within_reach(target, before);
   return before;
 }
 
+/// Only where the targets have not moved, and a projected step has hardly lowered the energy, is a
+/// step without projection tried. Frames that are behind move their targets.
 SheetState SheetSolver::followed(const SheetHandles::Target& target, SheetState before) const {
-  // A frame that is behind moves its target on. Only projected steps do not go too far then.
-  before.rests = before.rests && !handles_.is_behind(target, before.turns);
-  minimize(handles_.pull(target, before.turns), 1, before);
+  constexpr double kRests = 1e-5;  // of the value
+  const SheetPull pull = handles_.pull(target, before.turns);
+  Points targets;
+  for (const SheetPull::Row& row : pull.rows) targets.push_back(row.target);
+  const bool is_near = before.rests_at == targets;
+  const SheetProgram::Step last = minimize(pull, 1, before, {}, is_near);
+  if (last.length > 0.5 && last.decrement <= kRests * last.value)
+    before.rests_at = std::move(targets);
   return before;
 }
 
@@ -215,7 +231,7 @@ VectorXc SheetSolver::relaxed(const SheetPull& pull, const std::vector<char>& me
                               VectorXc f) const {
   constexpr int kMost = 20;
   constexpr double kWithin = 1e-7;
-  SheetState state{std::move(f), {}, false};
+  SheetState state{std::move(f), {}};
   minimize(pull, kMost, state);
   meet(pull, met, kWithin, state);
   return std::move(state.f);

@@ -15,7 +15,8 @@ namespace holomorph {
 struct SheetState {
   VectorXc f;                 ///< at the mesh's vertices
   std::vector<double> turns;  ///< of the pins: rotations of the picture there, unwrapped
-  bool rests = false;         ///< whether the last step hardly lowered the energy
+  /// The targets of the rows where the last step toward them hardly lowered the energy; else empty.
+  Points rests_at = {};
 };
 
 class SheetSolver;
@@ -50,7 +51,7 @@ class SheetSolver {
   SheetState solved(const SheetHandles::Target& target, const std::stop_token& stop) const;
   /// A step from a map toward that of a target.
   SheetState followed(const SheetHandles::Target& target, SheetState before) const;
-  /// The map of a target to which many steps lead.
+  /// The map of a target to which many steps lead, at most about 300. Throws Stopped.
   SheetState settled(const SheetHandles::Target& target, SheetState before,
                      const std::stop_token& stop) const;
   /// The map near f that a pull leads to, after a few steps. The pins that are marked get to their
@@ -63,10 +64,12 @@ class SheetSolver {
  private:
   SheetState reached(const SheetHandles::Target& target, const ConformalPaths::Path* path,
                      const std::stop_token& stop) const;
-  ConformalPaths::Path wound_path(const Turns& turns) const;
   const ConformalPaths& paths() const;
-  void minimize(const SheetPull& pull, int most, SheetState& state,
-                const std::stop_token& stop = {}) const;
+  SheetProgram::Step minimize(const SheetPull& pull, int most, SheetState& state,
+                              const std::stop_token& stop = {}, bool is_near = false) const;
+  void meet_within_reach(const SheetHandles::Target& target, SheetState& state) const;
+  void settle(const SheetHandles::Target& target, SheetState& state,
+              const std::stop_token& stop) const;
   void meet(SheetPull pull, const std::vector<char>& met, double within, SheetState& state) const;
 
   Settings settings_;

@@ -63,8 +63,9 @@ ConformalPaths::Path ConformalPaths::path(const VectorXc& displacements) const {
   return {std::move(end), least_moving_point(*mesh_, rest_.f, f)};
 }
 
-ConformalPaths::Path ConformalPaths::wound(
-    const std::vector<std::pair<Location, double>>& turns) const {
+ConformalPaths::Path ConformalPaths::wound(std::span<const Location> places,
+                                           std::span<const double> rotations) const {
+  check(!places.empty() && places.size() == rotations.size(), "sheet: a rotation for each place");
   // The smoothest angles with these values (Dirichlet).
   const Index n = static_cast<Index>(mesh_->vertices.size());
   std::vector<Eigen::Triplet<double>> entries;
@@ -75,10 +76,11 @@ ConformalPaths::Path ConformalPaths::wound(
         entries.emplace_back(t[a], t[b],
                              dot(opposite_side(*mesh_, t, a), opposite_side(*mesh_, t, b)) /
                                  (4 * area_of(*mesh_, t)));
-  for (const auto& [at, turn] : turns) {
+  for (size_t i = 0; i < places.size(); ++i) {
+    const Location& at = places[i];
     const Triangle& t = mesh_->triangles[static_cast<size_t>(at.triangle)];
     for (size_t a = 0; a < 3; ++a) {
-      pull[t[a]] += kRows * at.weights[a] * turn;
+      pull[t[a]] += kRows * at.weights[a] * rotations[i];
       for (size_t b = 0; b < 3; ++b)
         entries.emplace_back(t[a], t[b], kRows * at.weights[a] * at.weights[b]);
     }
@@ -88,7 +90,7 @@ ConformalPaths::Path ConformalPaths::wound(
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
   check(factor.info() == Eigen::Success, "sheet: the Dirichlet energy is definite");
   const VectorXd angles = factor.solve(pull);
-  Path path{rest_, turns.front().first};
+  Path path{rest_, places.front()};
   for (Index i = 0; i < path.end.logarithm.size(); ++i) {
     const auto& [a, b, c] = mesh_->triangles[static_cast<size_t>(i)];
     path.end.logarithm[i] = Complex(0, (angles[a] + angles[b] + angles[c]) / 3);

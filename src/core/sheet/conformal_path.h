@@ -21,9 +21,14 @@ class ConformalPaths {
   };
   /// Cost: a sparse solve.
   Path path(const VectorXc& displacements) const;
-  /// A path that winds the picture up: sizes stay, and rotations in radians are those at one or
-  /// more places, and smooth in between. Cost: a sparse factorization.
-  Path wound(const std::vector<std::pair<Location, double>>& turns) const;
+  /// A path that winds the picture up: sizes stay, and rotations are these at one or more places,
+  /// in radians, and smooth in between. Cost: a sparse factorization.
+  Path wound(std::span<const Location> places, std::span<const double> rotations) const;
+  /// The same path with more whole turns.
+  static Path turned(Path path, int turns) {
+    path.end.logarithm.array() += Complex(0, 2 * kPi * turns);
+    return path;
+  }
   /// The rotation at the end of a path in a triangle, in radians. Rotations are continuous along
   /// the mesh, and small on average.
   static double rotation(const Path& path, int triangle) {

@@ -67,9 +67,9 @@ bool keeps_degree(const Deformation& deformation, Index segment) {
 
 }  // namespace
 
-RecordedEdit recorded_rotation(Index pin) {
-  const auto angle_of = [pin](const Deformation& deformation) {
-    return deformation.pins[static_cast<size_t>(pin)].angle.value_or(0);
+RecordedEdit recorded_rotation(Index pin, double from) {
+  const auto angle_of = [pin, from](const Deformation& deformation) {
+    return deformation.pins[static_cast<size_t>(pin)].angle.value_or(from);
   };
   return {[pin, angle_of](Deformation deformation) {
             const double angle = angle_of(deformation);

@@ -16,8 +16,9 @@ struct RecordedEdit {
   /// by an amount.
   std::function<Deformation(Deformation deformation, const Deformation& start, Complex amount)> set;
 };
-/// The edit that rotates a pin by the real part of the amount, in radians.
-RecordedEdit recorded_rotation(Index pin);
+/// The edit that rotates a pin by the real part of the amount, in radians. A pin without a rotation
+/// starts from this one.
+RecordedEdit recorded_rotation(Index pin, double from);
 
 class Recording {
  public:

@@ -143,7 +143,7 @@ void PinRing::decide(const Input& input, Workspace& workspace) {
   const bool outward = std::abs(way.real()) > std::abs(way.imag());
   if (outward && held_radius(start_deformation_, *pin_, workspace.map().prepared()))
     gesture_ = Gesture::resize;
-  else if (recording_.start(workspace, recorded_rotation(*pin_), input.now_ms))
+  else if (recording_.start(workspace, recorded_rotation(*pin_, start_rotation_), input.now_ms))
     gesture_ = Gesture::record;
   else
     cancel(workspace);

@@ -185,7 +185,7 @@ class PinRing {
   double turned_ = 0;  ///< since the start, unwrapped
   Complex start_px_;
   double start_angle_ = 0, start_distance_ = 0;
-  double start_rotation_ = 0;  ///< of the pin
+  double start_rotation_ = 0;  ///< of the pin, in radians
   Deformation start_deformation_;
 };
 

@@ -171,4 +171,31 @@ TEST_CASE("Rings: a whole turn twists a limb, but turns all of a picture back to
   CHECK(std::abs(*alone.shown.turns[0] - alone.pose.pins[0].angle) < 1e-9);
 }
 
+TEST_CASE("Rings: a bar that turns as a whole stays a bar, whichever pins have rings") {
+  for (const double degrees : {170.0, 200.0, -300.0, 560.0})
+    for (int framed = 0; framed < 8; ++framed) {
+      CAPTURE(degrees, framed);
+      Rest rest = rest_of(shapes::rectangle(1600, 200), {{200, 100}, {800, 100}, {1400, 100}});
+      for (size_t i = 0; i < 3; ++i) rest.pins[i].has_frame = (framed >> i) % 2 == 1;
+      const double turn = degrees * kPi / 180;
+      Pose pose = at_rest(rest);
+      for (PosePin& pin : pose.pins) {
+        pin.position =
+            Complex(800, 100) + (pin.position - Complex(800, 100)) * std::polar(1.0, turn);
+        pin.angle = turn;
+        pin.turn = turn;
+      }
+      const auto deformer = method_named("sheet").prepare(rest, nullptr);
+      const SampledMap rigid = deformer->deform(pose, {});
+      CHECK(rigid.extremes.value().smallest == 1);
+      for (const auto& each : rigid.turns) CHECK(std::abs(*each - turn) < 1e-9);
+      // A little off, it is bent a little.
+      pose.pins[1].position += Complex(9, 12);
+      const SampledMap bent = deformer->deform(pose, {});
+      CHECK(bent.extremes.value().smallest > 0.9);
+      CHECK(bent.extremes.value().largest < 1.1);
+      for (const auto& each : bent.turns) CHECK(std::abs(*each - turn) < 0.2);
+    }
+}
+
 }  // namespace holomorph::sheet_release_test
