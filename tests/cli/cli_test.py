@@ -539,10 +539,15 @@ class CommandLine(Case):
             page = file.read().replace("\\-", "-")
         commands = re.findall(r"^  ([a-z]+) ", run("--help").stdout.split("Subcommands:")[1], re.M)
         self.assertGreater(len(commands), 7)
+        own, shared = page.split(".SH COMMANDS")[1].split(".SH OPTIONS")
+        headings = re.split(r"(?m)^\.BR? ([a-z]+)\b", own)
+        sections = dict(zip(headings[1::2], headings[2::2]))
+        self.assertEqual(sorted(sections), sorted(commands))
         for command in commands:
-            self.assertIsNotNone(re.search(rf"(?m)^\.B[RI]? {command}\b", page), command)
+            usage, text = sections[command].split("\n", 1)
+            named = " ".join([usage, *re.findall(r"(?m)^\.B.*", text + shared)])
             for flag in set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", run(command, "--help").stdout, re.M)):
-                self.assertIsNotNone(re.search(rf"(?m)^\.B.*{flag}\b", page), f"{command} {flag}")
+                self.assertIsNotNone(re.search(rf"{flag}(?![\w-])", named), f"{command} {flag}")
 
     def test_bad_arguments(self):
         scene = old_sample("giraffe")

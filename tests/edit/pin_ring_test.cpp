@@ -126,4 +126,14 @@ TEST_CASE("Ring: a pin that turned with the picture starts from there, and has i
   }
 }
 
+TEST_CASE("Ring: it is hidden and cannot be dragged where handles are hidden") {
+  for (const bool holds : {false, true}) {
+    RingDesk desk("sheet", ToolId::select);
+    (holds ? desk.workspace.display.hide_overlays : desk.workspace.display.show_cage) = holds;
+    const Complex at = desk.pin().pose + desk.ring();
+    desk.drag(at, desk.pin().pose + desk.ring() * kI);
+    CHECK(desk.pin().angle == 0.25);
+  }
+}
+
 }  // namespace holomorph::pin_ring_test

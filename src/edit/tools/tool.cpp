@@ -97,7 +97,9 @@ Complex center_px(const Workspace& workspace, Index pin) {
 void PinRing::hover(const Input& input, const Workspace& workspace) {
   pin_.reset();
   hovered_ = false;
-  if (workspace.mode != EditMode::pose || workspace.selection.size() != 1) return;
+  if (workspace.mode != EditMode::pose || workspace.selection.size() != 1 ||
+      !workspace.display.show_cage || workspace.display.hide_overlays)
+    return;
   const Handle handle = *workspace.selection.begin();
   if (handle.kind != Handle::Kind::pin ||
       !exists(workspace.shown.deformation(), handle, EditMode::pose))
