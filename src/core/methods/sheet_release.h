@@ -15,7 +15,7 @@ struct ReleasedSheet {
 /// is another one, other turns are tried: those of the draft once it is at rest, none, and those
 /// with a pin turned once more or once less, left free, or alone. Returns the first ones that lead
 /// to the draft, or else those that lead to the map nearest to it, if that is at most half as far
-/// from it as `found`. Cost: up to 300 steps, and up to 18 final maps where the maps differ. Throws
+/// from it as `found`. Cost: up to 500 steps, and up to 18 final maps where the maps differ. Throws
 /// Stopped.
 std::optional<ReleasedSheet> released_sheet(const SheetSolver& solver,
                                             const SheetHandles::Target& target,

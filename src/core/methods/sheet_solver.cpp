@@ -172,13 +172,14 @@ SheetState SheetSolver::reached(const SheetHandles::Target& target,
 
 void SheetSolver::settle(const SheetHandles::Target& target, SheetState& state,
                          const std::stop_token& stop) const {
-  constexpr int kMost = 100, kMostSteps = 200;
+  constexpr int kMost = 100, kMostSteps = 200, kMostRounds = 3;
   constexpr double kStill = 1e-7;  // of the size
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0, rounds = 0; step < kMostSteps; ++step) {
     throw_if_stopped(stop);
     if (!handles_.is_behind(target, state.turns)) {
       minimize(handles_.pull(target, state.turns), kMost, state, stop);
-      if (!handles_.is_behind(target, state.turns)) break;
+      // A frame near its limit may fall behind again.
+      if (!handles_.is_behind(target, state.turns) || ++rounds == kMostRounds) break;
     }
     const VectorXc before = state.f;
     state = followed(target, std::move(state));

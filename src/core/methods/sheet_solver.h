@@ -51,7 +51,7 @@ class SheetSolver {
   SheetState solved(const SheetHandles::Target& target, const std::stop_token& stop) const;
   /// A step from a map toward that of a target.
   SheetState followed(const SheetHandles::Target& target, SheetState before) const;
-  /// The map of a target to which many steps lead, at most about 300. Throws Stopped.
+  /// The map of a target to which many steps lead, at most 500. Throws Stopped.
   SheetState settled(const SheetHandles::Target& target, SheetState before,
                      const std::stop_token& stop) const;
   /// The map near f that a pull leads to, after a few steps. The pins that are marked get to their
