@@ -13,7 +13,7 @@ namespace {
 /// The pulls of all of a disk and of all of the cage, in units of a pin's.
 constexpr double kDiskPull = 10, kCagePull = 100;
 
-/// By how much a frame turns the picture on, at most, in radians.
+/// How much more rotation than the picture has a frame asks for, at most, in radians.
 constexpr double kMostBehind = kPi / 6;
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace holomorph {
 
 /// Pins, points along strokes and, without either, the cage's boundary are the first rows of the
-/// sheet. The others are the arms of pins with frames: ways from the pins to the vertices of their
-/// disks, which turn and scale.
+/// sheet. The others are the arms of pins with frames: vectors from the pins to the vertices of
+/// their disks, which turn and scale.
 class SheetHandles {
  public:
   struct Settings {
@@ -62,9 +62,8 @@ class SheetHandles {
   /// targets.
   Points straight(const Target& target, double part) const;
   /// The pull at a part of the way, where pins, strokes and the cage are to be at these points.
-  /// `turns` are the rotations of the picture at the pins. Frames turn it on from there by a
-  /// twelfth of a turn at most, since what cannot follow a ring would snap to the other side if
-  /// that is nearer.
+  /// `turns` are the rotations of the picture at the pins. A frame asks for at most a twelfth of a
+  /// turn more. Otherwise, a picture that cannot follow a ring would snap to the other side.
   SheetPull pull(const Target& target, const Points& at, double part,
                  const std::vector<double>& turns) const;
   /// The pull at the end.
@@ -73,8 +72,8 @@ class SheetHandles {
   }
   /// Whether a frame is farther from its target than it pulls.
   bool is_behind(const Target& target, const std::vector<double>& turns) const;
-  /// Adds what turns the disks around pins with turns at a part of the way. `strength` is in units
-  /// of the pull of a frame, and nothing of this gives way.
+  /// Adds pulls that turn the disks around pins with turns, at a part of the way. Their forces have
+  /// no limit. `strength` is relative to the pull of a frame.
   void add_turns(const Target& target, double part, double strength, SheetPull& pull) const;
   /// The image of a row.
   Complex image(size_t row, const VectorXc& f) const { return holds_.rows[row].image(f); }

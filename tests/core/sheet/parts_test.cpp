@@ -12,6 +12,7 @@
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
 #include "support/complaint.h"
+#include "support/pinned_rest.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
@@ -46,11 +47,7 @@ Cage random_parts(std::mt19937& random) {
 }
 
 Rest rest_of(const Cage& cage, int vertices = 2000) {
-  Rest rest;
-  rest.cage = cage;
-  rest.mesh = std::make_shared<const Mesh>(domain_mesh(cage, {vertices}));
-  rest.samples = rest.mesh->vertices;
-  return rest;
+  return rest_of(cage, {}, vertices);
 }
 
 /// A point well inside a part.
@@ -63,12 +60,6 @@ Complex middle_of(const Rest& rest, Index part) {
     if (finder.at(z) == part && depth > deepest) deepest = depth, best = z;
   }
   return best;
-}
-
-Pose at_rest(const Rest& rest) {
-  Pose pose{rest.cage, {}};
-  for (const RestPin& pin : rest.pins) pose.pins.push_back({pin.position});
-  return pose;
 }
 
 std::unique_ptr<Deformer> prepared(const Rest& rest) {

@@ -7,8 +7,8 @@
 #include "core/maps/distortion.h"
 #include "core/maps/injectivity.h"
 #include "core/maps/method.h"
-#include "core/mesh/mesher.h"
 #include "support/catch.h"
+#include "support/pinned_rest.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
@@ -16,22 +16,6 @@
 namespace holomorph::sheet_method_test {
 
 namespace {
-
-Rest rest_of(const Cage& cage, std::initializer_list<Complex> pins, int vertices = 700) {
-  Rest rest;
-  rest.cage = cage;
-  const auto mesh = std::make_shared<const Mesh>(domain_mesh(cage, {vertices}));
-  rest.mesh = mesh;
-  rest.samples = mesh->vertices;
-  for (const Complex& z : pins) rest.pins.push_back({z});
-  return rest;
-}
-
-Pose at_rest(const Rest& rest) {
-  Pose pose{rest.cage, {}};
-  for (const RestPin& pin : rest.pins) pose.pins.push_back({pin.position});
-  return pose;
-}
 
 std::unique_ptr<Deformer> prepared(const Rest& rest) {
   return method_named("sheet").prepare(rest, nullptr);

@@ -3,8 +3,8 @@
 
 #include "core/maps/deformer.h"
 #include "core/maps/method.h"
-#include "core/mesh/mesher.h"
 #include "support/catch.h"
+#include "support/pinned_rest.h"
 #include "support/random_puppet.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
@@ -14,21 +14,6 @@ namespace holomorph::sheet_release_test {
 namespace {
 
 const EvalOptions kDraft{.derivatives = false, .draft = true};
-
-Rest rest_of(const Points& outline, std::initializer_list<Complex> pins) {
-  Rest rest;
-  rest.cage = polygon_cage(outline);
-  rest.mesh = std::make_shared<const Mesh>(domain_mesh(rest.cage, {600}));
-  rest.samples = rest.mesh->vertices;
-  for (const Complex& z : pins) rest.pins.push_back({z});
-  return rest;
-}
-
-Pose at_rest(const Rest& rest) {
-  Pose pose{rest.cage, {}};
-  for (const RestPin& pin : rest.pins) pose.pins.push_back({pin.position});
-  return pose;
-}
 
 /// A deformer and what it shows while a pose is dragged.
 struct Drag {
@@ -65,7 +50,7 @@ TEST_CASE("Releases: turns that lead away from the draft are replaced by those t
   for (const unsigned seed : seeds) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    Drag drag(rest_of(shapes::rectangle(900, 90), {{50, 45}, {450, 45}, {850, 45}}));
+    Drag drag(rest_of(polygon_cage(shapes::rectangle(900, 90)), {{50, 45}, {450, 45}, {850, 45}}));
     // The bar has slack, and so may form loops.
     const Complex way = -400.0 + 150.0 * random_complex(random);
     for (int k = 1; k <= 40; ++k) {
@@ -122,7 +107,7 @@ TEST_CASE("Rings: a photograph that cannot follow a ring stops, and does not sna
     std::mt19937 random(seed);
     const double x = 350 + 45 * static_cast<double>(random() % 20),
                  y = 250 + 25 * static_cast<double>(random() % 20);
-    Rest rest = rest_of(shapes::rectangle(1600, 1000), {{x, y}});
+    Rest rest = rest_of(polygon_cage(shapes::rectangle(1600, 1000)), {{x, y}});
     rest.frame = random() % 2 == 0 ? Frame::slide : Frame::fixed;
     rest.pins[0].has_frame = true;
     Drag drag(rest);
@@ -149,7 +134,7 @@ TEST_CASE("Rings: a photograph that cannot follow a ring stops, and does not sna
 }
 
 TEST_CASE("Rings: a whole turn twists a limb, but turns all of a picture back to rest") {
-  Rest rest = rest_of(shapes::rectangle(1600, 200), {{1400, 100}, {200, 100}});
+  Rest rest = rest_of(polygon_cage(shapes::rectangle(1600, 200)), {{1400, 100}, {200, 100}});
   rest.pins[0].has_frame = true;
   Drag drag(rest);
   for (int degrees = 5; degrees <= 360; degrees += 5) {
@@ -175,7 +160,8 @@ TEST_CASE("Rings: a bar that turns as a whole stays a bar, whichever pins have r
   for (const double degrees : {170.0, 200.0, -300.0, 560.0})
     for (int framed = 0; framed < 8; ++framed) {
       CAPTURE(degrees, framed);
-      Rest rest = rest_of(shapes::rectangle(1600, 200), {{200, 100}, {800, 100}, {1400, 100}});
+      Rest rest = rest_of(polygon_cage(shapes::rectangle(1600, 200)),
+                          {{200, 100}, {800, 100}, {1400, 100}});
       for (size_t i = 0; i < 3; ++i) rest.pins[i].has_frame = (framed >> i) % 2 == 1;
       const double turn = degrees * kPi / 180;
       Pose pose = at_rest(rest);
