@@ -101,7 +101,7 @@ double inbetween_loss_percent(bool linear_blend) {
   const VectorXc flat = rolled(0), bent = rolled(1.5 * kPi);
   const Inbetween between(mesh);
   const Inbetween::Shape a = between.shape_of(flat),
-                         b = between.shape_of(bent, &a, {Complex(1, 50), 0});
+                         b = between.shape_after(a, between.shape_of(bent), {Complex(1, 50), 0});
   double worst = 0;
   for (int k = 1; k < 20; ++k) {
     const double u = k / 20.0;

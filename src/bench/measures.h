@@ -60,6 +60,8 @@ double export_ms(int side, int vertices, int runs, int threads);
 /// The time per frame of a film of 100 frames of 1000 x 1000 pixels with three keyframes, on all
 /// cores, from preparation to pixels.
 double film_frame_ms(const char* method);
+/// How much longer one frame takes in a film with 200 keyframes than in one with four.
+double many_keys_ratio(int runs);
 double auto_cage_ms(int runs);
 
 /// Results for 30 random pairs of smooth and limbed outlines: the number of targets that are

@@ -48,14 +48,14 @@ double every_pixel_ms(const std::function<void(const Scene&, const Image&)>& wor
   return slowest;
 }
 
-/// A wavy cage of 32 points and three pins in a picture of 1000 x 1000, with three keyframes over
-/// 100 frames.
-Deformation moving_shape(const char* method) {
+/// A wavy cage of 32 points and three pins in a picture of 1000 x 1000, with a keyframe every two
+/// seconds.
+Deformation moving_shape(const char* method, int keys) {
   Deformation deformation = scene_with(wavy(32, {500, 500}, 390));
   deformation.method = method;
   for (const Complex z : {Complex(300, 450), Complex(500, 750), Complex(650, 400)})
     deformation.pins.push_back({z, z, {}, {}});
-  for (int key = 0; key < 3; ++key) {
+  for (int key = 0; key < keys; ++key) {
     for (Pin& pin : deformation.pins) pin.pose = pin.rest + 30.0 * std::polar(1.0, 2.0 * key);
     deformation = with_key(std::move(deformation), 2.0 * key);
   }
@@ -100,7 +100,7 @@ double export_ms(int side, int vertices, int runs, int threads) {
 double film_frame_ms(const char* method) {
   constexpr int kFrames = 100;
   const Image image = gradient(1000);
-  Scene scene = scene_of(moving_shape(method));
+  Scene scene = scene_of(moving_shape(method, 3));
   const double start = now_ms();
   PictureMaker maker(scene, &image);
   PictureOptions options{};
@@ -110,6 +110,18 @@ double film_frame_ms(const char* method) {
     maker.picture(options);
   }
   return (now_ms() - start) / kFrames;
+}
+
+double many_keys_ratio(int runs) {
+  const Image image = gradient(1000);
+  const auto frame_ms = [&](int keys) {
+    const Scene scene = scene_of(moving_shape("puppet", keys));
+    PictureOptions options;
+    options.time = 3;
+    return median_ms(runs, [&] { picture_of(scene, &image, options); });
+  };
+  const double few = frame_ms(4);
+  return frame_ms(200) / few;
 }
 
 double auto_cage_ms(int runs) {

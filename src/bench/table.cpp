@@ -242,6 +242,7 @@ std::vector<Benchmark> benchmarks() {
           1, [](int) { return film_frame_ms("puppet"); }),
       one("film: 1000 x 1000, cage, a frame of 100 before encoding, with preparation", "ms", 40, 1,
           [](int) { return film_frame_ms("cage"); }),
+      one("film: one frame, 200 keyframes, puppet", "x 4 keyframes", 1.2, 3, many_keys_ratio),
       one("auto-cage: 2000 x 2000 picture", "ms", {}, 5, auto_cage_ms),
   };
 }

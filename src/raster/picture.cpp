@@ -121,7 +121,9 @@ class PictureMaker::LayerMaker {
   /// The intervals between the keys that play.
   std::vector<Motion::KeyInterval> key_intervals() {
     if (deformation_.keyframes.empty() || !deformation_.has_cage()) return {};
-    positions_at(0.0);
+    prepare();
+    motion_.follow(deformation_, linear_blend_, prepared_);
+    if (motion_.error()) throw Error(*motion_.error());
     return motion_.key_intervals();
   }
   /// How many pieces of an interval are short enough to estimate how paths bend: each turns by at
@@ -129,7 +131,7 @@ class PictureMaker::LayerMaker {
   int pieces_between(double from, double to) {
     if (key_intervals().empty()) return 0;
     constexpr double kMaxPieces = 2000;
-    const double turn = motion_.rotation_at(to) - motion_.rotation_at(from);
+    const double turn = motion_.rotation_between(from, to);
     return 2 + static_cast<int>(std::min(std::abs(turn) / (kPi / 4), kMaxPieces));
   }
 
@@ -192,12 +194,15 @@ class PictureMaker::LayerMaker {
     return job;
   }
 
-  SampledMap map_at(const std::optional<double>& time, bool derivatives) {
+  void prepare() {
     if (!prepared_) prepared_ = prepared_map(deformation_, Precision::single, MeshOptions{});
+  }
+
+  SampledMap map_at(const std::optional<double>& time, bool derivatives) {
+    prepare();
     if (!time || deformation_.keyframes.empty())
       return prepared_->deformer->deform(pose_of(deformation_), {derivatives});
-    motion_.follow(deformation_, linear_blend_, prepared_);
-    if (motion_.error()) throw Error(*motion_.error());
+    motion_.follow_at(*time, deformation_, linear_blend_, prepared_);
     if (!motion_.plays()) return map_at({}, derivatives);
     return motion_.sampled_at(*time, derivatives);
   }

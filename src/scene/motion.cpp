@@ -76,110 +76,127 @@ size_t Motion::unknown(const Deformation& deformation,
                        const std::shared_ptr<PreparedMap>& prepared) const {
   const std::vector<size_t> playing = playing_keys(deformation);
   if (prepared != prepared_) return playing.size();
+  const auto is_known = [](const Key& key, const Pose& pose) {
+    return key.f.size() > 0 && key.pose == pose;
+  };
   size_t count = 0;
   for (size_t k = 0; k < playing.size(); ++k) {
     const Pose& pose = deformation.keyframes[playing[k]].pose;
-    const bool at_same_place = k < keys_.size() && keys_[k].pose == pose;  // the usual case
-    if (!at_same_place && std::ranges::find(keys_, pose, &Key::pose) == keys_.end()) ++count;
+    const bool at_same_place = k < keys_.size() && is_known(keys_[k], pose);  // the usual case
+    count += !at_same_place &&
+             std::ranges::none_of(keys_, [&](const Key& key) { return is_known(key, pose); });
   }
   return count;
 }
 
-void Motion::follow(const Deformation& deformation, bool linear_blend,
-                    std::shared_ptr<PreparedMap> prepared, const std::stop_token& stop) {
-  bool changed = linear_blend_ != linear_blend || stopped_;
+/// Updates the list of keys. Known maps are kept.
+void Motion::list_keys(const Deformation& deformation, bool linear_blend,
+                       std::shared_ptr<PreparedMap> prepared) {
+  bool changed = linear_blend_ != linear_blend || prepared != prepared_;
   linear_blend_ = linear_blend;
   if (prepared != prepared_) {
     if (!between_ || &between_->mesh() != prepared->mesh.get()) {
       between_ = inbetween_of(*prepared);
       locations_.clear();
     }
-    prepared_ = prepared;
+    prepared_ = std::move(prepared);
     keys_.clear();
-    changed = true;
   }
-  std::vector<Key> keys;
   const std::vector<size_t> playing = playing_keys(deformation);
   check_budget(
       &Budget::operators,
-      static_cast<double>(playing.size() * prepared->mesh->vertices.size() * sizeof(Complex)),
+      static_cast<double>(playing.size() * prepared_->mesh->vertices.size() * sizeof(Complex)),
       "the maps at " + std::to_string(playing.size()) + " keyframes need");
-  const auto is_known = [&](size_t i, const Key& key) {
+  const auto is_listed = [&](size_t i, const Key& key) {
     const Keyframe& frame = deformation.keyframes[i];
     return frame.time == key.time && frame.ease == key.ease && frame.turns == key.turns &&
            frame.pose == key.pose;
   };
-  if (!changed && std::ranges::equal(playing, keys_, is_known)) {
-    error_.reset();
-    return;
-  }
-  stopped_ = true;
-  std::optional<Error> wrong;
+  error_.reset();
+  changed = changed || !std::ranges::equal(playing, keys_, is_listed);
+  if (!changed) return;
+  std::vector<Key> keys;
   for (const size_t i : playing) {
     const Keyframe& frame = deformation.keyframes[i];
     const auto known = std::ranges::find(keys_, frame.pose, &Key::pose);
-    Key key{frame.time, frame.ease, frame.turns, frame.pose, {}, {}, {}, {}};
-    if (known != keys_.end()) {
-      key.f = known->f;
-      key.solution = known->solution;
-      key.extremes = known->extremes;
-      key.note = known->note;
-    } else {
-      try {
-        throw_if_stopped(stop);
-        EvalOptions options;
-        options.stop = stop;
-        SampledMap map =
-            prepared->deformer->deform(pose_of(posed_as(deformation, frame.pose)), options);
-        key.f = std::move(map.f);
-        if (map.status == SampledMap::Status::certified) key.extremes = map.extremes;
-        if (key.extremes) {
-          key.solution = std::move(map.solution);
-          key.note = std::move(map.note);
-        }
-      } catch (const Stopped&) {
-        for (Key& found : keys)
-          if (std::ranges::find(keys_, found.pose, &Key::pose) == keys_.end())
-            keys_.push_back(std::move(found));
-        throw;
-      } catch (const Error& error) {
-        char when[48];
-        std::snprintf(when, sizeof when, "the keyframe at %.2f s: ", frame.time);
-        if (!wrong) wrong = Error(error.kind(), when + std::string(error.what()), error.where());
-        continue;
-      }
-    }
-    keys.push_back(std::move(key));
+    keys.push_back(known != keys_.end() ? *known : Key{.pose = frame.pose});
+    keys.back().time = frame.time;
+    keys.back().ease = frame.ease;
+    keys.back().turns = frame.turns;
   }
-  const auto same = [](const Key& a, const Key& b) {
-    return a.time == b.time && a.ease == b.ease && a.turns == b.turns && a.pose == b.pose;
-  };
-  stopped_ = false;
-  error_ = wrong;
-  if (!changed && std::ranges::equal(keys, keys_, same)) return;
   keys_ = std::move(keys);
-  proved_ = keys_.size() > 1 ? prepared->deformer->motion() : nullptr;
-  align(deformation);
+  count_turns(deformation);
 }
 
-/// Determines how many whole turns the picture makes from key to key.
-void Motion::align(const Deformation& deformation) {
+/// Determines how far the picture is expected to turn from key to key, and forgets all intervals.
+void Motion::count_turns(const Deformation& deformation) {
+  for (size_t i = 1; i < keys_.size(); ++i)
+    keys_[i].turn_before =
+        expected_rotation(deformation, keys_[i - 1].pose, keys_[i].pose, keys_[i].turns);
+  proved_ = keys_.size() > 1 ? prepared_->deformer->motion() : nullptr;
   shapes_.clear();
-  slopes_.reset();
-  least_moving_.reset();
+  blend_.reset();
   interval_.reset();
-  Inbetween::Shape before;
-  for (size_t i = 0; i < keys_.size(); ++i) {
-    Key& key = keys_[i];
-    Inbetween::Shape shape =
-        i == 0 ? between_->shape_of(key.f)
-               : between_->shape_of(
-                     key.f, &before,
-                     expected_rotation(deformation, keys_[i - 1].pose, key.pose, key.turns));
-    key.whole_turns = shape.turns;
-    key.turned = shape.logarithm.imag().mean();
-    before = std::move(shape);
+}
+
+/// Computes the map at a key, unless it is known. Throws Error and Stopped.
+void Motion::find_map(Key& key, const Deformation& deformation, const std::stop_token& stop) const {
+  if (key.f.size() > 0) return;
+  for (const Key& other : keys_)
+    if (other.f.size() > 0 && other.pose == key.pose) {
+      key.f = other.f;
+      key.solution = other.solution;
+      key.extremes = other.extremes;
+      key.note = other.note;
+      return;
+    }
+  throw_if_stopped(stop);
+  EvalOptions options;
+  options.stop = stop;
+  try {
+    SampledMap map = prepared_->deformer->deform(pose_of(posed_as(deformation, key.pose)), options);
+    key.f = std::move(map.f);
+    if (map.status != SampledMap::Status::certified || !map.extremes) return;
+    key.extremes = map.extremes;
+    key.solution = std::move(map.solution);
+    key.note = std::move(map.note);
+  } catch (const Error& error) {
+    char when[48];
+    std::snprintf(when, sizeof when, "the keyframe at %.2f s: ", key.time);
+    throw Error(error.kind(), when + std::string(error.what()), error.where());
   }
+}
+
+void Motion::follow(const Deformation& deformation, bool linear_blend,
+                    std::shared_ptr<PreparedMap> prepared, const std::stop_token& stop) {
+  list_keys(deformation, linear_blend, std::move(prepared));
+  stopped_ = true;
+  const size_t listed = keys_.size();
+  for (size_t i = 0; i < keys_.size();) {
+    try {
+      find_map(keys_[i], deformation, stop);
+      ++i;
+    } catch (const Error& error) {
+      if (!error_) error_ = error;
+      keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  if (keys_.size() < listed) count_turns(deformation);
+  stopped_ = false;
+}
+
+void Motion::follow_at(double time, const Deformation& deformation, bool linear_blend,
+                       std::shared_ptr<PreparedMap> prepared) {
+  list_keys(deformation, linear_blend, std::move(prepared));
+  stopped_ = false;
+  if (keys_.empty()) return;
+  const auto [i, u] = position_of(time);
+  size_t first = i, last = i;
+  if (u > 0) {
+    first = passes(i) ? i - 1 : i;
+    last = passes(i + 1) ? i + 2 : i + 1;
+  }
+  for (size_t k = first; k <= last; ++k) find_map(keys_[k], deformation, {});
 }
 
 const Inbetween::Shape& Motion::shape_at(size_t key) {
@@ -191,8 +208,25 @@ const Inbetween::Shape& Motion::shape_at(size_t key) {
     const auto from = [&](size_t k) { return k > key ? k - key : key - k; };
     shapes_.erase(from(first->first) > from(last->first) ? first : last);
   }
-  return shapes_.emplace(key, between_->shape_of(keys_[key].f, keys_[key].whole_turns))
-      .first->second;
+  return shapes_.emplace(key, between_->shape_of(keys_[key].f)).first->second;
+}
+
+/// The shape at a key, with the whole turns that the picture makes since the key before it.
+Inbetween::Shape Motion::shape_after(const Inbetween::Shape& before, size_t key) {
+  return between_->shape_after(before, shape_at(key), keys_[key].turn_before);
+}
+
+/// The shape at a key, with the whole turns that the picture makes until the key after it.
+Inbetween::Shape Motion::shape_before(const Inbetween::Shape& after, size_t key) {
+  ExpectedTurn back = keys_[key + 1].turn_before;
+  back.radians = -back.radians;
+  return between_->shape_after(after, shape_at(key), back);
+}
+
+/// The average rotation from a key to the next one.
+double Motion::rotation_after(size_t key) {
+  const Inbetween::Shape from = shape_at(key);
+  return (shape_after(from, key + 1).logarithm - from.logarithm).imag().mean();
 }
 
 /// Whether smooth motion passes through a key without stopping.
@@ -201,16 +235,27 @@ bool Motion::passes(size_t key) const {
          keys_[key].ease == Ease::smooth;
 }
 
-VectorXc Motion::slopes_at(size_t key) {
-  if (!passes(key)) return between_->slopes(nullptr, shape_at(key), nullptr, 1, 1);
-  return between_->slopes(&shape_at(key - 1), shape_at(key), &shape_at(key + 1),
-                          keys_[key].time - keys_[key - 1].time,
-                          keys_[key + 1].time - keys_[key].time);
-}
-
-const Motion::Slopes& Motion::slopes_from(size_t key) {
-  if (!slopes_ || slopes_->from != key) slopes_ = Slopes{key, slopes_at(key), slopes_at(key + 1)};
-  return *slopes_;
+/// Whole turns are counted from the first key of the interval, so that its maps do not depend on
+/// keys farther away, not even in their rounding errors.
+const Motion::Blend& Motion::blend_from(size_t key) {
+  if (blend_ && blend_->from == key) return *blend_;
+  Blend blend;
+  blend.from = key;
+  blend.at_from = shape_at(key);
+  blend.at_to = shape_after(blend.at_from, key + 1);
+  blend.still = least_moving_point(between_->mesh(), blend.at_from.f, blend.at_to.f);
+  if (keys_[key].ease == Ease::smooth) {
+    const auto time_after = [&](size_t k) { return keys_[k + 1].time - keys_[k].time; };
+    std::optional<Inbetween::Shape> before, after;
+    if (passes(key)) before = shape_before(blend.at_from, key - 1);
+    if (passes(key + 1)) after = shape_after(blend.at_to, key + 2);
+    blend.slope_from = between_->slopes(before ? &*before : nullptr, blend.at_from, &blend.at_to,
+                                        before ? time_after(key - 1) : 0, time_after(key));
+    blend.slope_to = between_->slopes(&blend.at_from, blend.at_to, after ? &*after : nullptr,
+                                      time_after(key), after ? time_after(key + 1) : 0);
+  }
+  blend_ = std::move(blend);
+  return *blend_;
 }
 
 Motion::TimePosition Motion::position_of(double time) const {
@@ -253,12 +298,15 @@ std::vector<Motion::KeyInterval> Motion::key_intervals() const {
   return all;
 }
 
-double Motion::rotation_at(double time) const {
-  const auto [i, u] = position_of(time);
-  const double from = keys_[i].turned;
-  if (u == 0) return from;
-  const double s = eased(keys_[i].ease, u);
-  return from + s * (keys_[i + 1].turned - from);
+double Motion::rotation_between(double from, double to) {
+  if (from > to) return -rotation_between(to, from);
+  const TimePosition start = position_of(from), end = position_of(to);
+  const auto part = [&](const TimePosition& at) {
+    return at.u == 0 ? 0 : eased(keys_[at.from].ease, at.u) * rotation_after(at.from);
+  };
+  double rotation = part(end) - part(start);
+  for (size_t k = start.from; k < end.from; ++k) rotation += rotation_after(k);
+  return rotation;
 }
 
 void preserve_turns(Deformation& deformation, const Deformation& before, Motion& motion) {
@@ -277,7 +325,7 @@ void preserve_turns(Deformation& deformation, const Deformation& before, Motion&
     if ((!is_new(from) && !is_new(to)) || !motion.covers(from.time) || !motion.covers(to.time))
       continue;
     const double given = expected_rotation(before, pose_at(from), pose_at(to), 0).radians,
-                 beyond = motion.rotation_at(to.time) - motion.rotation_at(from.time) - given;
+                 beyond = motion.rotation_between(from.time, to.time) - given;
     const int turns = static_cast<int>(std::abs(beyond) / (2 * kPi) + 0.5 + kTie);
     to.turns = std::min(turns, kMaxTurns) * (beyond < 0 ? -1 : 1);
   }
@@ -286,14 +334,19 @@ void preserve_turns(Deformation& deformation, const Deformation& before, Motion&
 const MotionInterval* Motion::interval_from(size_t key) {
   if (!proved_ || linear_blend_) return nullptr;
   if (interval_ && interval_->from == key) return interval_->interval.get();
+  const size_t first = passes(key) ? key - 1 : key, last = passes(key + 1) ? key + 2 : key + 1;
+  // Whole turns are counted from the first key of the interval, as in blend_from().
+  double rotation = shape_at(key).logarithm.imag().mean();
+  if (first < key) rotation -= rotation_after(first);
   std::vector<MotionKey> keys;
-  for (size_t k = key > 0 ? key - 1 : 0; k < std::min(keys_.size(), key + 3); ++k) {
+  for (size_t k = first; k <= last; ++k) {
     const Key& own = keys_[k];
-    keys.push_back({own.solution, own.extremes, &own.pose, &own.f, own.turned, own.time});
+    keys.push_back({own.solution, own.extremes, &own.pose, &own.f, rotation, own.time});
+    if (k < last) rotation += rotation_after(k);
   }
-  const size_t at = key > 0 ? 1 : 0;
-  interval_ = {key, proved_->interval(passes(key) ? &keys[at - 1] : nullptr, keys[at], keys[at + 1],
-                                      passes(key + 1) ? &keys[at + 2] : nullptr,
+  const size_t at = key - first;
+  interval_ = {key, proved_->interval(first < key ? &keys[0] : nullptr, keys[at], keys[at + 1],
+                                      last > key + 1 ? &keys[at + 2] : nullptr,
                                       keys_[key].ease == Ease::smooth)};
   return interval_->interval.get();
 }
@@ -317,20 +370,15 @@ VectorXc Motion::map_at(double time) {
   if (u == 0) return from.f;
   if (const MotionInterval* interval = interval_from(i)) return interval->at(u, false).f;
   const Key& to = keys_[i + 1];
-  const bool smooth = from.ease == Ease::smooth;
-  VectorXc f;
   if (linear_blend_) {
     const double share = eased(from.ease, u);
-    f = (1 - share) * from.f + share * to.f;
-  } else {
-    const Slopes* slopes = smooth ? &slopes_from(i) : nullptr;
-    if (!least_moving_ || least_moving_->first != i)
-      least_moving_ = {i, least_moving_point(between_->mesh(), from.f, to.f)};
-    between_->blend(
-        {shape_at(i), shape_at(i + 1), to.time - from.time, slopes ? &slopes->at_from : nullptr,
-         slopes ? &slopes->at_to : nullptr, &least_moving_->second},
-        u, f);
+    return (1 - share) * from.f + share * to.f;
   }
+  const auto& [key, at_from, at_to, slope_from, slope_to, still] = blend_from(i);
+  VectorXc f;
+  between_->blend({at_from, at_to, to.time - from.time, slope_from ? &*slope_from : nullptr,
+                   slope_to ? &*slope_to : nullptr, &still},
+                  u, f);
   return f;
 }
 

@@ -32,6 +32,11 @@ class Motion {
   /// on request. The maps found until then are kept for the next call; nothing plays before it.
   void follow(const Deformation& deformation, bool linear_blend,
               std::shared_ptr<PreparedMap> prepared, const std::stop_token& stop = {});
+  /// The same, but computes only the maps that the one at a time depends on: those at the keys
+  /// around it, and at their neighbors where the motion is smooth. Maps at other times must not be
+  /// requested. Cost: at most four final poses.
+  void follow_at(double time, const Deformation& deformation, bool linear_blend,
+                 std::shared_ptr<PreparedMap> prepared);
   void clear() { *this = Motion(); }
 
   /// The number of final poses that follow() would compute.
@@ -48,8 +53,9 @@ class Motion {
   /// The key pose that is displayed at a time: at a key, while a key is held, between two keys if
   /// nothing moves, before the first key and after the last key. Null at all other times.
   const Pose* pose_at(double time);
-  /// The average rotation of the picture at a time, in radians, including whole turns.
-  double rotation_at(double time) const;
+  /// How far the picture rotates on average from one time to another, in radians, including whole
+  /// turns.
+  double rotation_between(double from, double to);
   /// Whether a time lies between the first key and the last key, inclusive.
   bool covers(double time) const {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;
@@ -79,17 +85,20 @@ class Motion {
     Ease ease = Ease::smooth;
     int turns = 0;
     Pose pose;
-    VectorXc f;                                ///< at the mesh's vertices
-    std::shared_ptr<const Solution> solution;  ///< only if the method proves its maps
-    std::optional<Extremes> extremes;
-    std::string note;     ///< of the certified map
-    int whole_turns = 0;  ///< whole turns of the key's shape
-    double turned = 0;    ///< average rotation in radians
+    /// At the mesh's vertices. Empty if it is not known yet.
+    VectorXc f = {};
+    std::shared_ptr<const Solution> solution = {};  ///< only if the method proves its maps
+    std::optional<Extremes> extremes = {};
+    std::string note = {};          ///< of the certified map
+    ExpectedTurn turn_before = {};  ///< since the key before it
   };
-  /// The rates of change of all quantities at the two keys of an interval.
-  struct Slopes {
+  /// The shapes at both ends of an interval without proof, and their rates of change if the motion
+  /// is smooth.
+  struct Blend {
     size_t from = 0;
-    VectorXc at_from, at_to;
+    Inbetween::Shape at_from, at_to;
+    std::optional<VectorXc> slope_from, slope_to;
+    Location still;  ///< the least_moving_point
   };
   /// A time relative to the keys. If u = 0, the pose of key `from` is displayed. If u > 0, the time
   /// is at the fraction u of the interval from that key to the next.
@@ -101,12 +110,17 @@ class Motion {
   struct LocalMap {
     Complex f, fz;
   };
+  void list_keys(const Deformation& deformation, bool linear_blend,
+                 std::shared_ptr<PreparedMap> prepared);
+  void find_map(Key& key, const Deformation& deformation, const std::stop_token& stop) const;
+  void count_turns(const Deformation& deformation);
   TimePosition position_of(double time) const;
   LocalMap local_map_at(Complex rest, const VectorXc& map);
-  void align(const Deformation& deformation);
   const Inbetween::Shape& shape_at(size_t key);
-  VectorXc slopes_at(size_t key);
-  const Slopes& slopes_from(size_t key);
+  Inbetween::Shape shape_after(const Inbetween::Shape& before, size_t key);
+  Inbetween::Shape shape_before(const Inbetween::Shape& after, size_t key);
+  double rotation_after(size_t key);
+  const Blend& blend_from(size_t key);
   bool passes(size_t key) const;
   const MotionInterval* interval_from(size_t key);
 
@@ -119,10 +133,8 @@ class Motion {
   std::map<std::pair<double, double>, Location> locations_;
   // A shape needs eight times as much memory as its map. Therefore only the shapes near the
   // requested time are cached.
-  std::map<size_t, Inbetween::Shape> shapes_;  ///< by key
-  std::optional<Slopes> slopes_;
-  /// The least_moving_point of the interval from a key.
-  std::optional<std::pair<size_t, Location>> least_moving_;
+  std::map<size_t, Inbetween::Shape> shapes_;  ///< by key, without whole turns
+  std::optional<Blend> blend_;
   std::shared_ptr<const ProvedMotion> proved_;  ///< null if the method proves nothing
   struct KnownInterval {
     size_t from = 0;

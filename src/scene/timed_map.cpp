@@ -27,8 +27,7 @@ TimedMap::TimedMap(const Deformation& deformation, bool linear_blend)
 TimedFrame TimedMap::frame(std::optional<double> time) {
   if (!time || deformation_.keyframes.empty()) return {deformation_, pose_of(deformation_), {}};
   if (playing_keys(deformation_).empty()) throw no_key_plays();
-  motion_.follow(deformation_, linear_blend_, prepared_);
-  if (motion_.error()) throw Error(*motion_.error());
+  motion_.follow_at(*time, deformation_, linear_blend_, prepared_);
   if (const Pose* pose = motion_.pose_at(*time)) {
     const Deformation posed = posed_as(deformation_, *pose);
     return {posed, pose_of(posed), {}};

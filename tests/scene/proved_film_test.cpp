@@ -68,7 +68,9 @@ TEST_CASE("Films of the samples are proved frame by frame") {
       const Inbetween triangles(std::make_shared<const Mesh>(mesh));
       std::vector<Inbetween::Shape> shapes;
       for (const SampledMap& key : keys)
-        shapes.push_back(triangles.shape_of(key.f, shapes.empty() ? nullptr : &shapes.back()));
+        shapes.push_back(shapes.empty()
+                             ? triangles.shape_of(key.f)
+                             : triangles.shape_after(shapes.back(), triangles.shape_of(key.f)));
       const auto image = [&](size_t pin, const VectorXc& f) {
         return locate_near(mesh, film.pins[pin].rest).in(mesh, as_span(f));
       };

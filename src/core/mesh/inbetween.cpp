@@ -29,6 +29,15 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
              dot(opposite_side(*mesh_, t, a), opposite_side(*mesh_, t, b)) / (8 * areas_[i])});
     }
   }
+  neighbors_.assign(static_cast<size_t>(count), {-1, -1, -1});
+  for (Index i = 0; i < count; ++i) {
+    const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
+    for (size_t a = 0; a < 3; ++a) {
+      const auto neighbor = triangle_left_of.find({t[(a + 1) % 3], t[a]});
+      if (neighbor != triangle_left_of.end())
+        neighbors_[static_cast<size_t>(i)][a] = neighbor->second;
+    }
+  }
   std::vector<char> seen(static_cast<size_t>(count), 0);
   for (int first = 0; first < static_cast<int>(count); ++first) {
     if (seen[static_cast<size_t>(first)]) continue;
@@ -37,16 +46,11 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
     entries.push_back({still, still, entries[static_cast<size_t>(9 * first)].value()});
     part_starts_.push_back(order_.size());
     order_.push_back({first, -1});
-    for (size_t at = part_starts_.back(); at < order_.size(); ++at) {
-      const Triangle& t = mesh_->triangles[static_cast<size_t>(order_[at].triangle)];
-      for (int a = 0; a < 3; ++a) {
-        const auto neighbor = triangle_left_of.find({t[(a + 1) % 3], t[a]});
-        if (neighbor == triangle_left_of.end() || seen[static_cast<size_t>(neighbor->second)])
-          continue;
-        seen[static_cast<size_t>(neighbor->second)] = 1;
-        order_.push_back({neighbor->second, order_[at].triangle});
+    for (size_t at = part_starts_.back(); at < order_.size(); ++at)
+      for (const int next : neighbors_[static_cast<size_t>(order_[at].triangle)]) {
+        if (next < 0 || std::exchange(seen[static_cast<size_t>(next)], 1)) continue;
+        order_.push_back({next, order_[at].triangle});
       }
-    }
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -60,7 +64,7 @@ namespace {
 /// images are closest to each other.
 Location least_moving_among(const std::vector<int>& triangles, const Mesh& mesh, const VectorXc& a,
                             const VectorXc& b) {
-  Location best;
+  Location best{triangles.front(), {1, 0, 0}};
   double least = INFINITY;
   for (const int i : triangles) {
     const Triangle& t = mesh.triangles[static_cast<size_t>(i)];
@@ -85,56 +89,133 @@ Location least_moving_among(const std::vector<int>& triangles, const Mesh& mesh,
 
 Inbetween::Shape turned(Inbetween::Shape shape, int turns) {
   shape.logarithm.array() += Complex(0, 2 * kPi * turns);
-  shape.turns = turns;
+  shape.turns += turns;
   return shape;
 }
 
 }  // namespace
 
-Inbetween::Shape Inbetween::shape_of(const VectorXc& f, const Shape* before,
-                                     const ExpectedTurn& expected) const {
-  const Index count = areas_.size();
-  Shape shape{f, VectorXc(count), VectorXc(count), 0};
-  constexpr double kLeast = 1e-9;  // lower bound of |f_z|
-  for (const auto& [triangle, from] : order_) {
-    const Triangle& t = mesh_->triangles[static_cast<size_t>(triangle)];
-    Complex fz = 0, fzbar = 0;
-    for (int a = 0; a < 3; ++a) {
-      const Complex e = opposite_side(*mesh_, t, a);
-      fz += times(-kI * std::conj(e), f[t[a]]);
-      fzbar += times(kI * e, f[t[a]]);
+// Around a triangle that is flipped, f_z may wind around zero, so that its argument depends on the
+// path. Paths therefore go through as few of them as possible, and begin in the largest region that
+// is not flipped.
+std::vector<Inbetween::Visit> Inbetween::order_around(const std::vector<char>& flipped) const {
+  std::vector<Visit> order;
+  std::vector<char> seen(flipped.size(), 0);
+  // The triangles that are reached from `first` without entering those that are flipped.
+  const auto region_of = [&](int first) {
+    std::vector<int> region{first};
+    seen[static_cast<size_t>(first)] = 1;
+    for (size_t at = 0; at < region.size(); ++at)
+      for (const int next : neighbors_[static_cast<size_t>(region[at])])
+        if (next >= 0 && !flipped[static_cast<size_t>(next)] &&
+            !std::exchange(seen[static_cast<size_t>(next)], 1))
+          region.push_back(next);
+    return region;
+  };
+  std::vector<int> starts;
+  for (size_t p = 0; p < part_starts_.size(); ++p) {
+    const size_t end = p + 1 < part_starts_.size() ? part_starts_[p + 1] : order_.size();
+    int best = order_[part_starts_[p]].triangle;
+    double largest = 0;
+    for (size_t i = part_starts_[p]; i < end; ++i) {
+      const int triangle = order_[i].triangle;
+      if (flipped[static_cast<size_t>(triangle)] || seen[static_cast<size_t>(triangle)]) continue;
+      double area = 0;
+      for (const int t : region_of(triangle)) area += areas_[t];
+      if (area > largest) largest = area, best = triangle;
     }
-    fz /= 4 * areas_[triangle];
-    fzbar /= 4 * areas_[triangle];
-    const double square = std::norm(fz);
-    double angle = square == 0 ? 0 : std::arg(fz);
-    // Each part turns by less than half a turn more or less than the first one.
-    const int first = order_[0].triangle;
-    std::optional<double> near;
-    if (from >= 0)
-      near = shape.logarithm[from].imag();
-    else if (before && triangle != first)
-      near =
-          (before->logarithm[triangle] + shape.logarithm[first] - before->logarithm[first]).imag();
-    if (near) angle += 2 * kPi * std::round((*near - angle) / (2 * kPi));
-    const bool vanishes = square < kLeast * kLeast;
-    shape.logarithm[triangle] = {vanishes ? std::log(kLeast) : 0.5 * std::log(square), angle};
-    shape.nu[triangle] =
-        vanishes ? std::conj(fzbar) / std::polar(kLeast, angle) : quotient(std::conj(fzbar), fz);
+    starts.push_back(best);
   }
-  if (!before) return shape;
-  constexpr double kMostTurns = 1e6;
-  const VectorXd between = (shape.logarithm - before->logarithm).imag();
-  std::optional<Location> at;
-  if (expected.at) at = locate(*mesh_, mesh_->vertices, *expected.at);
-  const double now = at ? between[at->triangle] : between.dot(areas_) / areas_.sum();
-  return turned(std::move(shape),
-                static_cast<int>(std::clamp(std::round((expected.radians - now) / (2 * kPi)),
-                                            -kMostTurns, kMostTurns)));
+  std::ranges::fill(seen, 0);
+  for (const int start : starts) {
+    // Triangles that are flipped, and what lies beyond them, come last.
+    std::vector<Visit> now{{start, -1}}, later;
+    while (!now.empty()) {
+      for (size_t at = 0; at < now.size(); ++at) {
+        const Visit visit = now[at];
+        if (std::exchange(seen[static_cast<size_t>(visit.triangle)], 1)) continue;
+        order.push_back(visit);
+        for (const int next : neighbors_[static_cast<size_t>(visit.triangle)])
+          if (next >= 0 && !seen[static_cast<size_t>(next)])
+            (flipped[static_cast<size_t>(next)] ? later : now).push_back({next, visit.triangle});
+      }
+      now = std::exchange(later, {});
+    }
+  }
+  return order;
 }
 
 Inbetween::Shape Inbetween::shape_of(const VectorXc& f, int turns) const {
-  return turned(shape_of(f), turns);
+  const Index count = areas_.size();
+  Shape shape{f, VectorXc(count), VectorXc(count), 0};
+  VectorXc fz(count), fzbar(count);
+  std::vector<char> flipped(static_cast<size_t>(count), 0);
+  for (Index i = 0; i < count; ++i) {
+    const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
+    fz[i] = fzbar[i] = 0;
+    for (int a = 0; a < 3; ++a) {
+      const Complex e = opposite_side(*mesh_, t, a);
+      fz[i] += times(-kI * std::conj(e), f[t[a]]);
+      fzbar[i] += times(kI * e, f[t[a]]);
+    }
+    fz[i] /= 4 * areas_[i];
+    fzbar[i] /= 4 * areas_[i];
+    flipped[static_cast<size_t>(i)] = std::norm(fzbar[i]) >= std::norm(fz[i]);
+  }
+  const bool folds = std::ranges::find(flipped, 1) != flipped.end();
+  constexpr double kLeast = 1e-9;  // lower bound of |f_z|
+  for (const auto& [triangle, from] : folds ? order_around(flipped) : order_) {
+    const double square = std::norm(fz[triangle]);
+    double angle = square == 0 ? 0 : std::arg(fz[triangle]);
+    if (from >= 0)
+      angle += 2 * kPi * std::round((shape.logarithm[from].imag() - angle) / (2 * kPi));
+    const bool vanishes = square < kLeast * kLeast;
+    shape.logarithm[triangle] = {vanishes ? std::log(kLeast) : 0.5 * std::log(square), angle};
+    shape.nu[triangle] = vanishes ? std::conj(fzbar[triangle]) / std::polar(kLeast, angle)
+                                  : quotient(std::conj(fzbar[triangle]), fz[triangle]);
+  }
+  return turned(std::move(shape), turns);
+}
+
+/// The areas of the triangles that neither shape flips, and 0 for the others; if both flip all of
+/// them, all areas.
+VectorXd Inbetween::areas_of_upright(const Shape& a, const Shape& b) const {
+  const VectorXd upright = (a.nu.array().abs() < 1 && b.nu.array().abs() < 1)
+                               .select(areas_, VectorXd::Zero(areas_.size()));
+  return upright.sum() > 0 ? upright : areas_;
+}
+
+Inbetween::Shape Inbetween::shape_after(const Shape& before, Shape shape,
+                                        const ExpectedTurn& expected) const {
+  const VectorXd areas = areas_of_upright(before, shape);
+  // The rotation of the triangles from `first` on in the order.
+  const auto rotation = [&](size_t first, size_t end) {
+    double sum = 0, area = 0;
+    for (size_t i = first; i < end; ++i) {
+      const int t = order_[i].triangle;
+      sum += areas[t] * (shape.logarithm[t] - before.logarithm[t]).imag();
+      area += areas[t];
+    }
+    return area > 0 ? sum / area : 0.0;
+  };
+  const auto end_of = [&](size_t part) {
+    return part + 1 < part_starts_.size() ? part_starts_[part + 1] : order_.size();
+  };
+  // Each part turns by less than half a turn more or less than the first one.
+  for (size_t p = 1; p < part_starts_.size(); ++p) {
+    const double beyond = rotation(part_starts_[p], end_of(p)) - rotation(0, end_of(0)),
+                 turns = std::round(beyond / (2 * kPi));
+    for (size_t i = part_starts_[p]; i < end_of(p); ++i)
+      shape.logarithm[order_[i].triangle] -= Complex(0, 2 * kPi * turns);
+  }
+  double now = rotation(0, order_.size());
+  if (const auto at = expected.at ? locate(*mesh_, mesh_->vertices, *expected.at) : std::nullopt;
+      at && areas[at->triangle] > 0)
+    now = (shape.logarithm[at->triangle] - before.logarithm[at->triangle]).imag();
+  constexpr double kMostTurns = 1e6;
+  return turned(std::move(shape),
+                static_cast<int>(std::clamp(std::round((expected.radians - now) / (2 * kPi)),
+                                            -kMostTurns, kMostTurns)));
 }
 
 VectorXc Inbetween::slopes(const Shape* before, const Shape& here, const Shape* after,

@@ -37,17 +37,17 @@ class Inbetween {
   /// A map at the mesh's vertices, and its decomposition.
   struct Shape {
     VectorXc f;
-    VectorXc logarithm;  ///< ln f_z in each triangle, continuous in each part
+    /// ln f_z in each triangle, continuous in each part, except next to triangles that are flipped
+    VectorXc logarithm;
     VectorXc nu;
     int turns = 0;  ///< whole turns added to the first triangle's angle in [-pi, pi]
   };
-  /// Decomposes a map. If `before` is given, the number of whole turns is chosen to bring the
-  /// rotation since `before` as close as possible to the expected rotation, which is 0 by default.
-  /// Triangles of zero size are treated as very small ones.
-  Shape shape_of(const VectorXc& f, const Shape* before = nullptr,
-                 const ExpectedTurn& expected = {}) const;
-  /// Decomposes a map with a known number of whole turns.
-  Shape shape_of(const VectorXc& f, int turns) const;
+  /// Decomposes a map with a known number of whole turns. Triangles of zero size are treated as
+  /// very small ones.
+  Shape shape_of(const VectorXc& f, int turns = 0) const;
+  /// A shape with other whole turns, such that the rotation since `before` is as close as possible
+  /// to the expected rotation, which is 0 by default. Triangles that are flipped do not count.
+  Shape shape_after(const Shape& before, Shape shape, const ExpectedTurn& expected = {}) const;
 
   /// The time derivative of each triangle's logarithm at a key, for interpolation by monotone
   /// cubics (Fritsch, Carlson 1980). The times from the key to its neighbors are `to_before` and
@@ -78,6 +78,10 @@ class Inbetween {
   struct Visit {
     int triangle, from;
   };
+  std::vector<Visit> order_around(const std::vector<char>& flipped) const;
+  VectorXd areas_of_upright(const Shape& a, const Shape& b) const;
+
+  std::vector<std::array<int, 3>> neighbors_;  ///< of each triangle, across its sides; -1: none
   std::vector<Visit> order_;
   std::vector<size_t> part_starts_;  ///< where each part starts in it
   VectorXd areas_;

@@ -148,7 +148,8 @@ TEST_CASE("In-betweens unwind whole turns, and triangles alone let still pins sl
   for (size_t i = 0; i < to.size(); ++i) held.push_back(to[i] == stage.pins[i]);
   const auto once = stage.between->interval(nullptr, a, b, nullptr, false, held);
   const Inbetween triangles(stage.mesh);
-  const auto shape_a = triangles.shape_of(a.f), shape_b = triangles.shape_of(b.f, &shape_a);
+  const auto shape_a = triangles.shape_of(a.f),
+             shape_b = triangles.shape_after(shape_a, triangles.shape_of(b.f));
   double slid = 0, certified_slid = 0;
   for (int frame = 1; frame < 20; ++frame) {
     const double u = frame / 20.0;

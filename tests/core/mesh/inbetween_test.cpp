@@ -55,7 +55,7 @@ TEST_CASE("In-betweens of a bar bent by 270 degrees keep its area and length") {
   const Inbetween between(mesh);
   const VectorXc flat = rolled(*mesh, 0), bent = rolled(*mesh, 1.5 * kPi);
   const Inbetween::Shape a = between.shape_of(flat),
-                         b = between.shape_of(bent, &a, {Complex(1, 50), 0});
+                         b = between.shape_after(a, between.shape_of(bent), {Complex(1, 50), 0});
   double least_linear = 1;
   for (const double u : {0.1, 0.25, 0.5, 0.75, 0.9}) {
     VectorXc f;
@@ -82,7 +82,8 @@ TEST_CASE("In-betweens: ends are exact, and a fixed point stays fixed") {
   VectorXc turned = flat;
   const Complex pivot(60, 20);
   for (Complex& z : turned) z = pivot + std::polar(1.0, 2.0) * (z - pivot);
-  const Inbetween::Shape a = between.shape_of(flat), b = between.shape_of(turned, &a);
+  const Inbetween::Shape a = between.shape_of(flat),
+                         b = between.shape_after(a, between.shape_of(turned));
   VectorXc f;
   between.blend({a, b}, 0, f);
   CHECK(f == flat);
@@ -101,7 +102,7 @@ TEST_CASE("In-betweens: the expected turn decides the number of whole turns") {
   const VectorXc flat = rolled(*mesh, 0), bent = rolled(*mesh, 5 * kPi);
   const Inbetween::Shape a = between.shape_of(flat);
   const auto turn_at_start = [&](const ExpectedTurn& expected) {
-    const Inbetween::Shape b = between.shape_of(bent, &a, expected);
+    const Inbetween::Shape b = between.shape_after(a, between.shape_of(bent), expected);
     const auto at = locate(*mesh, mesh->vertices, {2, 50});
     return (b.logarithm - a.logarithm)[at->triangle].imag();
   };
@@ -110,7 +111,7 @@ TEST_CASE("In-betweens: the expected turn decides the number of whole turns") {
   CHECK(turn_at_start({{}, 2.5 * kPi}) ==
         Approx(0).margin(0.3));  // without a point, the average turn is expected
   VectorXc f;
-  const Inbetween::Shape b = between.shape_of(bent, &a, {{}, 2.5 * kPi});
+  const Inbetween::Shape b = between.shape_after(a, between.shape_of(bent), {{}, 2.5 * kPi});
   between.blend({a, b}, 0.5, f);
   const VectorXc exact = rolled(*mesh, 2.5 * kPi);
   const VectorXc off = (f.array() - f.mean()) - (exact.array() - exact.mean());
@@ -127,7 +128,8 @@ TEST_CASE("In-betweens: bounded distortion stays bounded") {
     wide[i] = std::exp(kI * z / 300.0) * 300.0 + 0.4 * std::conj(z);
     tall[i] = 0.8 * z + 0.3 * kI * std::conj(z * z) / 900.0;
   }
-  const Inbetween::Shape a = between.shape_of(wide), b = between.shape_of(tall, &a);
+  const Inbetween::Shape a = between.shape_of(wide),
+                         b = between.shape_after(a, between.shape_of(tall));
   const double k = std::max(largest_nu(between, wide), largest_nu(between, tall));
   REQUIRE(k < 0.9);
   const auto least = [](const Inbetween::Shape& s) {
@@ -151,15 +153,15 @@ TEST_CASE(
   const auto mesh = bar_mesh(300);
   const Inbetween between(mesh);
   const Inbetween::Shape a = between.shape_of(rolled(*mesh, 0)),
-                         b = between.shape_of(rolled(*mesh, 1), &a),
-                         c = between.shape_of(rolled(*mesh, 3), &b);
+                         b = between.shape_after(a, between.shape_of(rolled(*mesh, 1))),
+                         c = between.shape_after(b, between.shape_of(rolled(*mesh, 3)));
   const VectorXc at_a = between.slopes(nullptr, a, &b, 0, 1),
                  at_b = between.slopes(&a, b, &c, 1, 2),
                  at_c = between.slopes(&b, c, nullptr, 2, 0);
   const auto turn = [&](const Inbetween::Interval& interval, double u) {
     VectorXc f;
     between.blend(interval, u, f);
-    const Inbetween::Shape shape = between.shape_of(f, &a, {Complex(2, 50), 0});
+    const Inbetween::Shape shape = between.shape_after(a, between.shape_of(f), {Complex(2, 50), 0});
     return (shape.logarithm - a.logarithm).imag().mean();
   };
   const double h = 1e-3;
