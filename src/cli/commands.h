@@ -43,6 +43,7 @@ struct RenderCommand : SceneCommand {
   bool force = false;
   Moments moments = {};
   bool missing = false;           ///< draw only frames that have no file yet
+  bool print_rectangle = false;   ///< of the whole motion, instead of drawing
   std::optional<int> depth = {};  ///< bits per color; none: as is usual in the format
 };
 /// A film whose frames many machines draw.

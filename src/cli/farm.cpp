@@ -3,7 +3,9 @@
 // The script has two parts, and its first argument says which one runs: `plan`, the usual one,
 // finds the chunks with missing frames, submits itself as an array of jobs that `draw` them, and as
 // another `plan` after these. When nothing is missing, `plan` makes the film. A drawn frame appears
-// as a whole or not at all, so whatever ends a job, its frames are either there or missing.
+// as a whole or not at all, so whatever ends a job, its frames are either there or missing. `plan`
+// also finds the rectangle of the whole motion, because that needs the maps at all keyframes. If it
+// cannot, the jobs that draw say why.
 #include <cstdio>
 #include <map>
 
@@ -76,7 +78,7 @@ missing_chunks() {
 if [ "${1:-plan}" = draw ]; then
   from=$((first + SLURM_ARRAY_TASK_ID * chunk)) to=$((from + chunk - 1))
   exec "$holomorph" render "$scene" --out "$frames" --missing@drawing@ \
-    --frames "$from..$((to < last ? to : last))"
+    --frames "$from..$((to < last ? to : last))" ${2:+--rect "$2"}
 fi
 
 round=${2:-1}
@@ -88,7 +90,8 @@ elif [ "$round" -gt "$rounds" ]; then
   echo "holomorph: after $rounds rounds, frames are still missing in chunks $missing" >&2
   exit 1
 else
-  drawing=$(sbatch --parsable --array="$missing" "$script" draw)
+  rect=@rect@
+  drawing=$(sbatch --parsable --array="$missing" "$script" draw $rect)
   sbatch --parsable --dependency="afterany:${drawing%%;*}" "$script" plan $((round + 1))
 fi
 )sh";
@@ -100,6 +103,13 @@ std::string film_command(const FarmCommand& command) {
          film_format_of(*command.film).extension.substr(1) +
          (command.outside ? " --allow-outside" : "") +
          " --drawn \"$frames\" --frames \"$first..$last\" --out " + quoted(*command.film);
+}
+
+/// The command that prints the rectangle of all frames, unless the options determine it.
+std::string rectangle_command(const FarmCommand& command) {
+  if (command.crop || command.rectangle) return "";
+  return std::string("$(\"$holomorph\" render \"$scene\" --out \"$frames\" --print-rect") +
+         (command.outside ? " --allow-outside" : "") + " 2>/dev/null) || rect=";
 }
 
 std::string script_of(const FarmCommand& command, FrameRange range) {
@@ -115,6 +125,7 @@ std::string script_of(const FarmCommand& command, FrameRange range) {
       {"chunk", std::to_string(command.chunk)},
       {"rounds", std::to_string(command.rounds)},
       {"drawing", drawing_options(command)},
+      {"rect", rectangle_command(command)},
       {"film", film_command(command)}};
   std::string text;
   const std::string_view rest = kScript;

@@ -187,6 +187,8 @@ void CommandLine::add_render(CLI::App& app) {
               "; each becomes a numbered file, such as walk-0007.png for walk.png. All show the "
               "rectangle of the whole motion, or --rect");
   sub->add_flag("--missing", render.missing, "Draw only frames that have no file yet");
+  sub->add_flag("--print-rect", render.print_rectangle,
+                "Draw nothing, but print the rectangle of the whole motion, for --rect");
   add_depth(sub, render.depth);
   add_force(sub, render.force);
 }

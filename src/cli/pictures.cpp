@@ -44,6 +44,18 @@ void read_fine_pixels(LoadedScene& loaded) {
     std::fprintf(stderr, "holomorph: %s\n", printable(loss).c_str());
 }
 
+/// The value of --rect with which frames show exactly what they show without it.
+void print_motion_rectangle(const LoadedScene& loaded) {
+  const Progress progress("render");
+  PictureMaker maker(loaded.scene, loaded.image(), loaded.pictures);
+  const std::optional<Box> box = maker.motion_region([] { return !is_interrupted(); });
+  if (!box) return;
+  constexpr double kEdge = kRectangleRounding;
+  std::printf("%s\n", csv_line("%.17g,%.17g,%.17g,%.17g", box->left - kEdge, box->bottom - kEdge,
+                               box->width() + 2 * kEdge, box->height() + 2 * kEdge)
+                          .c_str());
+}
+
 void render_frames(const RenderCommand& command, LoadedScene& loaded, PictureOptions options,
                    const PictureFormat& format, int depth) {
   const Scene& scene = loaded.scene;
@@ -250,6 +262,7 @@ void run(const RenderCommand& command) {
   LoadedScene loaded = read_scene(command);
   const Moments& moments = command.moments;
   if (moments.any()) require_keyframes(loaded.scene, command.scene);
+  if (command.print_rectangle) return print_motion_rectangle(loaded);
   if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
   const bool standard = is_standard(command.out);
   if (command.missing && !moments.frames)
@@ -293,6 +306,7 @@ void run(const ExportCommand& command) {
                              command.rectangle,
                              command.force,
                              command.moments,
+                             false,
                              false,
                              command.depth});
   LoadedScene loaded = read_scene(command);

@@ -180,7 +180,9 @@ class Farm(Case):
             os.remove(self.frame(i))
         self.by_hand("--frames", "0..39", "--chunk", "8", "--film", self.path("f.gif"))
         with open(self.path("bin/sbatch.calls")) as file:
-            self.assertIn("--array=0,3", file.read())
+            calls = file.read()
+        self.assertIn("--array=0,3", calls)
+        self.assertRegex(calls, r"sbatch draw -?\d", "the rectangle is found once, not by each task")
         drawn = {i for i in range(40) if os.stat(self.frame(i)).st_mtime_ns != kept[i]}
         self.assertEqual(drawn, {3, 4, 30})
         self.good("export", self.scene, "--format", "gif", "--frames", "0..39", "--out", self.path("one.gif"))
