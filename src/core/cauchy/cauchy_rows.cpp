@@ -86,17 +86,31 @@ VectorXc CauchyRows::coordinates(const EvalPoint& eval_point, size_t segment) co
 }
 
 VectorXc CauchyRows::whole_row(const EvalPoint& eval_point) const {
+  if (is_undefined(eval_point)) return row_of_limits(eval_point);
   VectorXc row = VectorXc::Zero(cage_.control_count());
-  if (is_undefined(eval_point)) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    row.setConstant(Complex(kNaN, kNaN));
-    return row;
-  }
   for (size_t e = 0; e < segments_.size(); ++e) {
     const VectorXc values = coordinates(eval_point, e);
     for (Index m = 0; m < values.size(); ++m) row[column(e, static_cast<int>(m))] += values[m];
   }
   if (order_ == 2) set_second_derivatives(row, eval_point.point);
+  return row;
+}
+
+/// The row at a vertex, where the derivatives of some coordinates have no limit. A control point
+/// has one if its Bernstein polynomial vanishes there, with as many of its derivatives.
+VectorXc CauchyRows::row_of_limits(const EvalPoint& eval_point) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const size_t vertex = static_cast<size_t>(eval_point.on->segment), last = before(vertex);
+  const EvalPoint inside{{segments_[vertex].start(), inwards(vertex)}, {}};
+  VectorXc row = VectorXc::Zero(cage_.control_count());
+  for (size_t e = 0; e < segments_.size(); ++e) {
+    const VectorXc values = coordinates(e == vertex || e == last ? inside : eval_point, e);
+    const Index degree = values.size() - 1;
+    for (Index m = 0; m <= degree; ++m) {
+      const bool diverges = (e == vertex && m <= order_) || (e == last && degree - m <= order_);
+      row[column(e, static_cast<int>(m))] += diverges ? Complex(kNaN, kNaN) : values[m];
+    }
+  }
   return row;
 }
 

@@ -10,7 +10,8 @@ namespace holomorph {
 class CauchyRows {
  public:
   /// The value of a derivative row at a vertex. Derivatives have a logarithmic singularity at
-  /// vertices where the slope of the control points jumps. `not_a_number` fills the row with NaN.
+  /// vertices where the slope of the control points jumps. `not_a_number` gives the limit of each
+  /// coordinate that has one, to 10 digits, and NaN for the others.
   /// `from_inside` evaluates the row inside the cage, at a distance of 1e-12 of the shorter edge.
   /// The product of that row with control points is the limit if their slope does not jump.
   enum class AtVertices { not_a_number, from_inside };
@@ -51,6 +52,7 @@ class CauchyRows {
   Complex inwards(size_t vertex) const;
   VectorXc coordinates(const EvalPoint& eval_point, size_t segment) const;
   VectorXc whole_row(const EvalPoint& eval_point) const;
+  VectorXc row_of_limits(const EvalPoint& eval_point) const;
   void set_second_derivatives(VectorXc& row, const FinePoint& z) const;
 
   Cage cage_;

@@ -142,6 +142,43 @@ TEST_CASE("Cauchy coordinates at vertices are the limits from inside, for mixed 
   }
 }
 
+TEST_CASE("Derivatives at vertices: limits where they exist, and NaN next to the vertex") {
+  for (const unsigned seed : seeds_of("derivatives at vertices", {1, 2, 3, 4})) {
+    std::mt19937 random(seed);
+    const Cage cage = seed % 4 == 0
+                          ? polygon_cage(shapes::star(6, 0.4, seed))
+                          : shapes::curved_star(4 + static_cast<int>(seed % 3),
+                                                2 + static_cast<int>(seed % 4), 0.2, seed);
+    for (int order = 1; order <= 3; ++order)
+      for (Index v = 0; v < cage.size(); ++v) {
+        CAPTURE(seed, order, v);
+        const Complex vertex = cage.vertex(v);
+        const VectorXc row = cauchy_coordinates(cage, Points{vertex}, order).row(0);
+        // At this distance inside, the others have come close to their limits.
+        const double reach = 1e-7 * std::abs(cage.end_vertex(v) - vertex);
+        const Complex in = vertex - cage.vertex(cage.before(v)), out = cage.end_vertex(v) - vertex;
+        Complex inside = vertex + reach * kI * (in / std::abs(in) + out / std::abs(out));
+        if (!contains(cage, inside)) inside = 2.0 * vertex - inside;
+        Points close{inside};
+        for (const double ulps : {1, -1, 4, -4, 16, -16})
+          close.push_back(vertex * (1 + ulps * std::numeric_limits<double>::epsilon()));
+        const MatrixXc near = cauchy_coordinates(cage, close, order);
+        int limits = 0;
+        for (Index c = 0; c < row.size(); ++c) {
+          if (!is_finite(row[c])) continue;
+          ++limits;
+          for (size_t i = 0; i < close.size(); ++i)
+            if (i == 0 || contains(cage, close[i]))
+              CHECK(std::abs(row[c] - near(static_cast<Index>(i), c)) <=
+                    1e-3 * (1 + std::abs(row[c])));
+        }
+        const Index before = cage.degree(cage.before(v)), after = cage.degree(v),
+                    beyond = std::min<Index>(order, before) + std::min<Index>(order, after);
+        CHECK(limits == row.size() - 1 - beyond);
+      }
+  }
+}
+
 TEST_CASE("The map of target control points and its derivatives equal the golden map") {
   for (const char* name : kFiles) {
     const json data = golden(name);
