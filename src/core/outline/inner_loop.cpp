@@ -13,6 +13,8 @@ constexpr int kRounds = 20;
 
 Points offset_inwards(const Points& polygon, double distance) {
   constexpr double kArcStep = 0.3;
+  // Where the polygon is straight up to rounding errors, the ends of an arc would coincide.
+  constexpr double kStraight = 0.01;
   Points loop;
   const size_t n = polygon.size();
   for (size_t i = 0; i < n; ++i) {
@@ -20,7 +22,7 @@ Points offset_inwards(const Points& polygon, double distance) {
                   after = polygon[(i + 1) % n] - polygon[i];
     const Complex in = before / std::abs(before), out = after / std::abs(after);
     const double turn = std::arg(out / in);
-    if (turn >= 0) {
+    if (turn >= -kStraight) {
       loop.push_back(polygon[i] + distance * kI * (in + out) / std::max(1 + std::cos(turn), 1e-9));
       continue;
     }

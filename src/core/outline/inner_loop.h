@@ -8,8 +8,9 @@
 namespace holomorph {
 
 /// A loop at this distance inside a simple, counter-clockwise polygon, with miters at convex
-/// corners and arcs around the other corners. The loop's vertices are at most three times the
-/// distance apart. The distance is halved, up to 20 times, until the loop does not cross itself.
+/// corners and where it is straight, and arcs around the other corners. The loop's vertices are at
+/// most three times the distance apart. The distance is halved, up to 20 times, until the loop does
+/// not cross itself.
 Points inner_loop(const Points& polygon, double distance);
 
 /// The number of zeros of a function inside a loop, by the argument principle: its winding number

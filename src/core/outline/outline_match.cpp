@@ -104,11 +104,24 @@ void OutlineFit::build(const Correspondence& start) {
 
 void OutlineFit::solve(const Points& pinned) {
   pinned_ = in(frame_, pinned);
+  solve_from(std::nullopt);
+  if (!start_ || settings_.upright == 0) return;
+  // Keeping the picture upright must not make it fold.
+  const int zeros = misses().zeros;
+  if (zeros > 0) solve_from(0);
+  if (misses().zeros < zeros) return start_->use_upright(settings_.upright);
+  if (zeros > 0) solve_from(settings_.upright);
+}
+
+/// Solves from the best start with this weight of the picture's rotation. Without pins, none keeps
+/// the start of the last solution.
+void OutlineFit::solve_from(std::optional<double> upright) {
   const Points wanted = held(pinned_);
   before_ = {};
   if (start_) start_->use_sharp(false);
-  if (start_ && !pins_.empty())
-    build(start_->best(wanted));
+  if (start_ && upright) start_->use_upright(*upright);
+  if (start_ && (upright || !pins_.empty()))
+    build(start_->best(pins_.empty() ? Points{} : wanted));
   else if (refined_)
     build(built_);
   fit_->reset();

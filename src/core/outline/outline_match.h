@@ -103,6 +103,7 @@ class OutlineFit {
   /// The iteration ends when the relative decrease of the energy falls below this.
   static constexpr double kSettled = 1e-3;
 
+  void solve_from(std::optional<double> upright);
   void build(const Correspondence& start);
   void begin(const Correspondence& start, const Points& wanted);
   void set_up_basis(const Correspondence& start);

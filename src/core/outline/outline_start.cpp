@@ -388,6 +388,10 @@ Correspondence ConformalStart::last(const Points& pinned) {
   return search_->correspondence();
 }
 
+void ConformalStart::use_upright(double weight) {
+  search_->upright = weight;
+}
+
 Correspondence ConformalStart::least_stretched() {
   const double upright = std::exchange(search_->upright, 0);
   Correspondence result = best();

@@ -56,6 +56,8 @@ class ConformalStart {
   /// The best correspondence for these pin targets. Without targets, pins are ignored. Cost: 3 to
   /// 25 ms.
   Correspondence best(const Points& pinned = {});
+  /// Sets the weight of the picture's squared rotation for later calls.
+  void use_upright(double weight);
   /// Uses finer maps to the disk, which resolve corners that correspond to long parts of the other
   /// outline, or the usual ones again. Returns false and changes nothing if rounding does not allow
   /// finer maps. Cost: about 100 ms the first time.

@@ -1,6 +1,7 @@
 // Maps of outlines onto outlines: the parts of the method, and the whole method.
 #include <Eigen/QR>
 #include <algorithm>
+#include <random>
 
 #include "bench/outlines.h"
 #include "core/cauchy/cauchy.h"
@@ -9,11 +10,13 @@
 #include "core/maps/method.h"
 #include "core/mesh/mesher.h"
 #include "core/methods/parameters.h"
+#include "core/outline/inner_loop.h"
 #include "core/outline/outline_match.h"
 #include "core/outline/outline_start.h"
 #include "core/outline/riemann.h"
 #include "core/solvers/alternating_fit.h"
 #include "support/catch.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 namespace holomorph::outline_test {
@@ -288,6 +291,58 @@ TEST_CASE("Outline: random shapes are mapped onto random outlines without folds"
     const Polyline target(outline, true), boundary(Points(f.begin(), f.end()), true);
     CHECK(one_sided_distance(boundary, target) < 0.01 * target.diagonal());
     CHECK(one_sided_distance(target, boundary) < 0.01 * target.diagonal());
+  }
+}
+
+/// A polygon with corners at a few random directions, rotated by some angle, whose edges are
+/// divided into `parts`. The rounded vertices bend by some ulps to either side.
+Points straight_runs(std::mt19937& random, int corners, int parts) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  Points ends;
+  for (int i = 0; i < corners; ++i)
+    ends.push_back(
+        std::polar(70 + 60 * unit(random), 2 * kPi * (i + 0.6 * unit(random)) / corners + 0.3));
+  Points polygon;
+  for (size_t i = 0; i < ends.size(); ++i)
+    for (int k = 0; k < parts; ++k)
+      polygon.push_back(ends[i] + (ends[(i + 1) % ends.size()] - ends[i]) * (1.0 * k / parts));
+  return polygon;
+}
+
+TEST_CASE("Inner loop: along straight runs of vertices, it does not cross itself") {
+  for (const unsigned seed : seeds_of("inner loops", {1, 2, 3, 4, 5, 6})) {
+    std::mt19937 random(seed);
+    const Points polygon = straight_runs(random, 5 + static_cast<int>(seed % 4), 12),
+                 loop = inner_loop(polygon, 0.2);
+    CAPTURE(seed);
+    CHECK_FALSE(self_crossing(loop));
+    // Most of its vertices lie at the distance that was asked for.
+    int near = 0;
+    for (const Complex& z : loop) near += Polyline(polygon, true).nearest(z).distance < 0.19;
+    CHECK(near == 0);
+    Points zeros;
+    for (int k = 0; k < 3; ++k) zeros.push_back(25.0 * random_complex(random));
+    const auto at = [&](const Points& points) {
+      VectorXc values(static_cast<Index>(points.size()));
+      for (Index i = 0; i < values.size(); ++i) {
+        values[i] = 1;
+        for (const Complex& zero : zeros) values[i] *= points[static_cast<size_t>(i)] - zero;
+      }
+      return values;
+    };
+    CHECK(zeros_inside(loop, at(loop), at) == 3);
+  }
+}
+
+TEST_CASE("Outline: keeping the picture upright never makes it fold") {
+  for (const unsigned seed : seeds_of("upright outlines", {1, 2, 3, 4})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    const OutlineTask task{
+        polygon_cage(straight_runs(random, 6, 8)), straight_runs(random, 5, 10), {}, {}};
+    OutlineSettings free;
+    free.upright = 0;
+    CHECK(matched(task, {}).zeros <= matched(task, free).zeros);
   }
 }
 
