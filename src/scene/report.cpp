@@ -76,8 +76,9 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   report.mesh_vertices = static_cast<int>(mesh.vertices.size());
   report.mesh_triangles = static_cast<int>(mesh.triangles.size());
   report.prepare_milliseconds = prepared.milliseconds;
-  report.map = frame.pose ? report_of(mesh, map) : report_of_linear(mesh, map.f);
-  const MapReport linear = frame.pose ? report_of_linear(mesh, map.f) : report.map;
+  report.in_triangles = report.status == "blended";
+  const MapReport linear = report_of_linear(mesh, map.f);
+  report.map = report.in_triangles ? linear : report_of(mesh, map);
   report.least_in_triangles = linear.min_sigma;
   report.most_in_triangles = linear.max_sigma;
   report.folds_visibly = injectivity_of(mesh, map.f).folds();
@@ -108,6 +109,7 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
          {"isometric", report.isometric_energy},
          {"pins_rms", report.pin_rms},
          {"pins_most", report.pin_most}}},
+       {"measured", report.in_triangles ? "triangles" : "samples"},
        {"max_k", report.map.max_k},
        {"min_sigma", report.map.min_sigma},
        {"max_sigma", report.map.max_sigma},
@@ -160,8 +162,9 @@ std::string text_of(const SceneReport& report) {
       line("timings          prepare %.1f ms", report.prepare_milliseconds);
   if (report.pose_milliseconds) text += line(", pose %.2f ms", *report.pose_milliseconds);
   text +=
-      line("\nmax k            %.4g\nmin sigma        %.4g\nmax Sigma        %.4g\n", map.max_k,
-           map.min_sigma, map.max_sigma) +
+      line("\n%s k %.4g, sigma %.4g, Sigma %.4g\n",
+           report.in_triangles ? "triangles       " : "sampled         ", map.max_k, map.min_sigma,
+           map.max_sigma) +
       line("zeros of f'      %zu\nturning number   %.3f\nsimple boundary  %s\n", map.zeros.size(),
            map.turning_number, map.simple_boundary ? "yes" : "no") +
       line("flipped          %d of %d triangles\n", map.flipped_triangles, report.mesh_triangles) +

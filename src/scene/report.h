@@ -21,13 +21,15 @@ struct SceneReport {
   double pin_rms = 0;              ///< root mean square distance of pins from their targets, pixels
   double pin_most = 0;             ///< the largest of these distances
   std::optional<Extremes> proved;  ///< if the map is certified
+  /// Measured at the mesh's vertices, or in its triangles where the map is linear in each of them.
   MapReport map;
+  bool in_triangles = false;
   double least_in_triangles = 1, most_in_triangles = 1;  ///< stretches of the drawn triangles
   bool folds_visibly = false;  ///< by the editor's criterion, which ignores specks
 };
 
-/// Measures a frame of a scene's map at the mesh's vertices. Between keyframes, measures it in the
-/// mesh's triangles.
+/// Measures a frame of a scene's map at the mesh's vertices. Between keyframes, a map that is
+/// blended triangle by triangle is measured in the triangles.
 SceneReport report_of(TimedMap& timed, const TimedFrame& frame);
 
 /// A report as readable text.

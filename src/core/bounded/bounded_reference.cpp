@@ -29,6 +29,12 @@ ReferenceSampler::ReferenceSampler(const Rest& rest, const Method& method,
   followed.precision = Precision::full;  // affordable for so few samples
   followed.samples = points_.boundary;
   for (const int v : anchors_) followed.samples.push_back(mesh_->vertices[static_cast<size_t>(v)]);
+  for (const RestPin& pin : rest.pins) {
+    const bool inside = locate(*mesh_, mesh_->vertices, pin.position).has_value();
+    pins_.push_back(inside ? std::optional(static_cast<Index>(followed.samples.size()))
+                           : std::nullopt);
+    if (inside) followed.samples.push_back(pin.position);
+  }
   followed.derivative_samples.clear();
   deformer_ = method.prepare(followed, nullptr);
 }
@@ -61,14 +67,21 @@ void ReferenceSampler::deform(const Pose& pose, EvalOptions options, const Solut
 }
 
 bool ReferenceSampler::is_identity() const {
+  constexpr double kRounding = 1e-10;
   const Index m = static_cast<Index>(points_.boundary.size()),
               inner = static_cast<Index>(points_.inner.size());
+  const double far = kRounding * box_of(mesh_->vertices).diagonal();
   for (Index i = 0; i < m; ++i)
-    if (map_.f[i] != points_.boundary[static_cast<size_t>(i)]) return false;
+    if (std::abs(map_.f[i] - points_.boundary[static_cast<size_t>(i)]) > far) return false;
   for (size_t i = 0; i < anchors_.size(); ++i)
-    if (anchor_images()[i] != mesh_->vertices[static_cast<size_t>(anchors_[i])]) return false;
-  return map_.fz.head(m + inner) == VectorXc::Ones(m + inner) &&
-         map_.fzbar.head(m + inner).isZero(0);
+    if (std::abs(anchor_images()[i] - mesh_->vertices[static_cast<size_t>(anchors_[i])]) > far)
+      return false;
+  return (map_.fz.head(m + inner).array() - 1.0).abs().maxCoeff() <= kRounding &&
+         map_.fzbar.head(m + inner).cwiseAbs().maxCoeff() <= kRounding;
+}
+
+std::optional<Complex> ReferenceSampler::pin_image(size_t pin) const {
+  return pins_[pin] ? std::optional(map_.f[*pins_[pin]]) : std::nullopt;
 }
 
 BoundedReference ReferenceSampler::reference(Points& zeros) const {

@@ -35,7 +35,7 @@ class ReferenceSampler {
   void deform(const Pose& pose, EvalOptions options, const Solution* from);
   /// The method's solution for the sampled map.
   const std::shared_ptr<const Solution>& solution() const { return map_.solution; }
-  /// Whether the sampled map is the identity, to the last bit.
+  /// Whether the sampled map is the identity, up to rounding errors.
   bool is_identity() const;
   /// ln f_z along the boundary (Levi, Weber 2016, alg. 4), and nu and Psi' at all points. `zeros`
   /// receives the positions of the zeros of f_z that were found.
@@ -43,6 +43,8 @@ class ReferenceSampler {
   /// The indices of some of the mesh's vertices (at least one), and the images of these vertices.
   const std::vector<int>& anchors() const { return anchors_; }
   std::span<const Complex> anchor_images() const;
+  /// Where the method's map takes a pin; none if it lies outside the mesh.
+  std::optional<Complex> pin_image(size_t pin) const;
   /// The method's note, for example about a pin that it could not use.
   const std::string& note() const { return map_.note; }
 
@@ -55,6 +57,7 @@ class ReferenceSampler {
   std::shared_ptr<const Mesh> mesh_;
   ReferencePoints points_;
   std::vector<int> anchors_;  ///< inner vertices, or boundary vertices if there are none
+  std::vector<std::optional<Index>> pins_;  ///< their samples
   HolomorphicFit fit_;
   std::unique_ptr<Deformer> deformer_;
   SampledMap map_;

@@ -22,6 +22,13 @@
 namespace holomorph {
 namespace {
 
+/// Extremes of a map that is also proved to be within bounds. They are found only to within 1 %, so
+/// that the bounds may be tighter.
+Extremes within(const Bounds& bounds, Extremes extremes) {
+  return {std::min(extremes.shear, bounds.k), std::max(extremes.smallest, bounds.sigma),
+          std::min(extremes.largest, bounds.Sigma)};
+}
+
 class BoundedDeformer final : public Deformer {
  public:
   /// The polygon of the basis has about `basis` vertices. The basis has at most about `most`
@@ -68,7 +75,8 @@ class BoundedDeformer final : public Deformer {
                      ? SampledMap::Status::certified
                      : SampledMap::Status::infeasible;
     if (!options.draft && out.status == SampledMap::Status::certified)
-      out.extremes = nu_ ? nu_->extremes(found->solution.map) : psi_->extremes(found->solution.map);
+      out.extremes = within(
+          bounds_, nu_ ? nu_->extremes(found->solution.map) : psi_->extremes(found->solution.map));
     out.iterations = found->conformal.iterations + found->solution.iterations;
     out.ignores_pins = !reference_->uses_pins();
     out.note = note(pose, *found, options.draft);
@@ -319,10 +327,18 @@ class BoundedDeformer final : public Deformer {
       const double off = std::abs(pins_[i]->in(*rest_.mesh, f) - pose.pins[i].position);
       if (off > farthest) farthest = off, which = i;
     }
-    if (farthest < kMissed * box_of(rest_.mesh->vertices).diagonal()) return "";
-    const auto bound = binding_constraint({&found.conformal.solution, &found.solution.solution});
-    return short_pin_text(which, farthest) +
-           (bound ? " (limit: " + limit_text(*bound) + ")" : ", as in the followed map");
+    const double visible = kMissed * box_of(rest_.mesh->vertices).diagonal();
+    if (farthest < visible) return "";
+    const std::string text = short_pin_text(which, farthest);
+    if (const auto bound =
+            binding_constraint({&found.conformal.solution, &found.solution.solution}))
+      return text + " (limit: " + limit_text(*bound) + ")";
+    const std::optional<Complex> followed = reference_->pin_image(which);
+    const bool misses = followed && std::abs(*followed - pose.pins[which].position) >= visible;
+    if (misses) return text + ", as in the followed map";
+    return text + (space_ == "psi" ? ", for want of pin weight"
+                                   : std::string(", because ") +
+                                         (space_ == "nu" ? "shape" : "size") + " is preferred");
   }
 
   Rest rest_;
