@@ -44,8 +44,11 @@ Box content_box(const Workspace& workspace) {
   Box box;
   // Each layer is measured in its own plane and added where it lies.
   Similarity placed;
+  // Extreme maps take points anywhere. No view shows what is far beyond all handles.
   const auto include_point = [&](Complex z) {
-    if (is_finite(z)) box.include(placed(z));
+    const Complex at = placed(z);
+    if (std::abs(at.real()) <= kMaxCoordinate && std::abs(at.imag()) <= kMaxCoordinate)
+      box.include(at);
   };
   const auto include = [&](const Box& part) {
     if (part.empty()) return;

@@ -164,7 +164,7 @@ TEST_CASE("Timeline: a keyframe set during a rotation does not change the rotati
       desk.workspace.commit("Turns", deformation, EditBase::document);
       const auto turned = [&](double at) {
         go_to(desk, at);
-        return desk.workspace.map().motion().rotation_at(at);
+        return desk.workspace.map().motion().rotation_between(0, at);
       };
       const double before = turned(0.9), mid = turned(time);
       CHECK_THAT(before, Catch::WithinAbs(0.9 * 2 * kPi * turns, 1e-6));
@@ -206,6 +206,52 @@ TEST_CASE("Timeline: edits of keyframes do not set poses, even with auto-key") {
   go_to(desk, 0);
   act(desk, "time.delete_key");
   CHECK(desk.workspace.shown.own().keyframes.size() == 1);
+}
+
+TEST_CASE("Timeline: a layer that loses its last keyframes stays as it is displayed") {
+  for (const double time : {0.0, 0.25, 0.5, 0.9, 1.0, 3.0}) {
+    CAPTURE(time);
+    TestWorkspace desk(kBar);
+    Workspace& w = desk.workspace;
+    set_two_keys(desk);
+    Deformation far = desk.deformation();
+    for (Points& segment : far.pose.segments) segment[0] += Complex(0, 90);
+    w.commit("Another own pose", far, EditBase::document);
+    go_to(desk, time);
+    const VectorXc before = w.map().map().f;
+    w.shown.timeline.keys = all_keys(w.document.scene());
+    act(desk, "time.delete_key");
+    REQUIRE(w.shown.own().keyframes.empty());
+    CHECK((w.map().map().f - before).cwiseAbs().maxCoeff() <= 1e-2);
+    act(desk, "edit.undo");
+    CHECK(w.shown.own().keyframes.size() == 2);
+    CHECK(w.shown.own().pose.vertex(0).imag() == 90);
+  }
+}
+
+TEST_CASE("Timeline: of several layers, those that lose their keyframes stay as displayed") {
+  TestWorkspace desk(kBar);
+  Workspace& w = desk.workspace;
+  set_two_keys(desk);
+  Scene two = w.document.scene();
+  Layer second = two.layer();
+  second.id = 77;
+  second.deformation.keyframes.pop_back();  // one at rest
+  two.layers.push_back(std::move(second));
+  REQUIRE(w.commit_layers("Second layer", two));
+  const auto settle_others = [&] {
+    do desk.update();
+    while (!w.maps.of(77).has_map() || w.maps.of(77).busy());
+  };
+  go_to(desk, 0.5);
+  settle_others();
+  const VectorXc before = w.map().map().f, before_77 = w.maps.of(77).map().f;
+  w.shown.timeline.keys = all_keys(w.document.scene());
+  act(desk, "time.delete_key");
+  settle_others();
+  CHECK_FALSE(has_keyframes(w.document.scene()));
+  CHECK((w.map().map().f - before).cwiseAbs().maxCoeff() <= 1e-2);
+  CHECK((w.maps.of(77).map().f - before_77).cwiseAbs().maxCoeff() <= 1e-2);
 }
 
 TEST_CASE("Timeline: selected keyframes are copied and pasted at the current time") {
@@ -440,7 +486,7 @@ TEST_CASE(
   CHECK(after.keyframes[0] == hollow);
   CHECK(after.keyframes.back().time == 3);
   go_to(desk, 3);
-  CHECK(desk.workspace.map().motion().rotation_at(3) == Approx(2 * kPi).margin(0.05));
+  CHECK(desk.workspace.map().motion().rotation_between(0, 3) == Approx(2 * kPi).margin(0.05));
 }
 
 TEST_CASE("Timeline: tangents that do not exist in all keyframes are not recorded") {

@@ -79,10 +79,13 @@ void tooltip_of(const Action& action) {
         draw_key_cap(list, ImGui::GetCursorScreenPos(), ImGui::GetTextLineHeight(), key);
     ImGui::Dummy({width, ImGui::GetTextLineHeight()});
   }
-  if (*action.hint) {
+  const bool disabled =
+      (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
+  for (const char* text : {action.hint, disabled ? action.needs : ""}) {
+    if (!*text) continue;
     const ScopedFont small(Type::caption);
     ImGui::PushStyleColor(ImGuiCol_Text, color_of(theme_colors().muted));
-    ImGui::TextUnformatted(action.hint);
+    ImGui::TextUnformatted(text);
     ImGui::PopStyleColor();
   }
   end_tooltip();

@@ -26,9 +26,11 @@ void action_entry(const std::string& id, MenuDrawing& drawing) {
   const Action& action = drawing.workspace.actions.named(id);
   const std::string keys = action.keys.empty() ? "" : text_of(action.keys[0]);
   const bool checked = action.checked && action.checked(drawing.workspace);
-  const bool chosen = menu_entry(action.label, keys, checked, action.enabled(drawing.workspace));
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && *action.hint)
-    drawing.answer.hint = action.hint;
+  const bool enabled = action.enabled(drawing.workspace),
+             chosen = menu_entry(action.label, keys, checked, enabled);
+  const char* hint = !enabled && *action.needs ? action.needs : action.hint;
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && *hint)
+    drawing.answer.hint = hint;
   if (chosen) run(action, drawing.workspace);
 }
 

@@ -82,6 +82,7 @@ std::vector<Action> cage_actions() {
           .label = "Edit rest shape",
           .hint = "Posed points stay while you edit the rest shape; others follow it",
           .keys = {Key::tab},
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run = switch_mode,
           .checked = [](const Workspace& w) { return w.mode == EditMode::rest; },
@@ -131,6 +132,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.raise",
           .label = "Raise degree",
           .hint = "For the selected curves, or for all; they keep their shape",
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run =
               [](Workspace& w) {
@@ -141,6 +143,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.lower",
           .label = "Lower degree",
           .hint = "Fit curves of lower degree to the selected ones, or to all",
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run =
               [](Workspace& w) {

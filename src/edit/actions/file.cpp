@@ -89,6 +89,7 @@ std::vector<Action> file_actions() {
           .label = "Outline from file...",
           .hint =
               "Use an SVG path, the opaque part of a picture, or the boundary of an OBJ surface",
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run = ask<Request::import_outline>,
       },
@@ -96,6 +97,7 @@ std::vector<Action> file_actions() {
           .id = "file.import_pose",
           .label = "Posed cage from SVG...",
           .hint = "Use the path with the id \"pose\", or else the first",
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run = ask<Request::import_pose>,
       },
@@ -110,6 +112,7 @@ std::vector<Action> file_actions() {
           .id = "file.export_svg",
           .label = "Export cage as SVG...",
           .hint = "Write the rest shape and the pose",
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run = ask<Request::export_svg>,
       },

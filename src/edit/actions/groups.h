@@ -22,6 +22,7 @@ inline constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false}
 inline bool always(const Workspace&) {
   return true;
 }
+inline constexpr char kNeedsCage[] = "Needs a cage: draw one, or set a pin on a picture";
 inline bool has_cage(const Workspace& w) {
   return w.shown.deformation().has_cage();
 }

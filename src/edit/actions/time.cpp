@@ -37,6 +37,26 @@ std::string for_keys(const std::string& what, const KeySelection& keys) {
   return what + (keys.size() == 1 ? " keyframe" : " keyframes");
 }
 
+/// Deletes keyframes. A layer that loses its last one stays as it is displayed.
+void delete_keys(Workspace& w, const KeySelection& keys) {
+  const Scene& before = w.document.scene();
+  Scene after = without_keys(before, keys);
+  for (size_t i = 0; i < after.layers.size(); ++i) {
+    const Deformation& own = before.layers[i]->deformation;
+    if (!after.layers[i]->deformation.keyframes.empty() || own.keyframes.empty()) continue;
+    const bool edited = i == before.edited;
+    if (edited && !w.require_pose()) return;
+    const std::optional<Deformation>& timed =
+        std::as_const(w.maps).of(before.layers[i]->id).timed();
+    const Deformation& displayed = edited ? w.shown.base() : timed ? *timed : own;
+    if (!fits(own, whole_pose_of(displayed))) continue;
+    Layer layer = *after.layers[i];
+    layer.deformation = posed_as(std::move(layer.deformation), whole_pose_of(displayed));
+    after = with_layer_at(std::move(after), i, std::move(layer));
+  }
+  w.commit_layers(for_keys("Delete", keys), std::move(after));
+}
+
 /// Copies keyframes to the current time, or after them if it is among them.
 void duplicate(Workspace& w, const KeySelection& keys) {
   const auto [first, last] = span_of(keys);
@@ -96,6 +116,7 @@ std::vector<Action> time_actions() {
           .label = "Play",
           .icon = icon_named("play"),
           .keys = {Key::space},
+          .needs = "Needs two keyframes, or a film",
           .enabled = plays,
           .run =
               [](Workspace& w) {
@@ -113,6 +134,7 @@ std::vector<Action> time_actions() {
           .label = "Previous frame",
           .icon = icon_named("previous"),
           .keys = {','},
+          .needs = "Needs a keyframe, or a film",
           .enabled = has_frames,
           .run = stop_at_frame<-1>,
       },
@@ -121,6 +143,7 @@ std::vector<Action> time_actions() {
           .label = "Next frame",
           .icon = icon_named("next"),
           .keys = {'.'},
+          .needs = "Needs a keyframe, or a film",
           .enabled = has_frames,
           .run = stop_at_frame<1>,
       },
@@ -129,6 +152,7 @@ std::vector<Action> time_actions() {
           .label = "Previous keyframe",
           .icon = icon_named("to-start"),
           .keys = {{',', kShift}, {'<', kShift}},
+          .needs = "Needs a keyframe",
           .enabled = has_keys,
           .run = step_key<false>,
       },
@@ -137,6 +161,7 @@ std::vector<Action> time_actions() {
           .label = "Next keyframe",
           .icon = icon_named("to-end"),
           .keys = {{'.', kShift}, {'>', kShift}},
+          .needs = "Needs a keyframe",
           .enabled = has_keys,
           .run = step_key<true>,
       },
@@ -146,6 +171,7 @@ std::vector<Action> time_actions() {
           .hint = "Store the current pose at the current time",
           .icon = icon_named("key"),
           .keys = {'I'},
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run = [](Workspace& w) { w.set_key(); },
       },
@@ -154,18 +180,16 @@ std::vector<Action> time_actions() {
           .label = "Delete keyframes",
           .hint = "Delete the selected keyframes, or the one at the current time",
           .icon = icon_named("trash"),
+          .needs = "Needs a selected keyframe, or one at the current time",
           .enabled = has_chosen_keys,
-          .run =
-              [](Workspace& w) {
-                const KeySelection keys = chosen_keys(w);
-                w.commit_layers(for_keys("Delete", keys), without_keys(w.document.scene(), keys));
-              },
+          .run = [](Workspace& w) { delete_keys(w, chosen_keys(w)); },
       },
       {
           .id = "time.copy_keys",
           .label = "Duplicate keyframes",
           .hint = "Copy the selected keyframes to the current time",
           .icon = icon_named("duplicate"),
+          .needs = "Needs a selected keyframe, or one at the current time",
           .enabled = has_chosen_keys,
           .run = [](Workspace& w) { duplicate(w, chosen_keys(w)); },
       },
@@ -174,6 +198,7 @@ std::vector<Action> time_actions() {
           .label = "Mirror keyframes",
           .hint = "Mirror the selected poses; needs a cage that is symmetric at rest",
           .icon = icon_named("symmetry"),
+          .needs = "Needs a selected keyframe, or one at the current time",
           .enabled = has_chosen_keys,
           .run =
               [](Workspace& w) {
@@ -185,6 +210,7 @@ std::vector<Action> time_actions() {
       {
           .id = "time.select_keys",
           .label = "Select all keyframes",
+          .needs = "Needs a keyframe",
           .enabled = has_keys,
           .run =
               [](Workspace& w) {
@@ -200,6 +226,7 @@ std::vector<Action> time_actions() {
           .hint = "Every change of the pose sets a keyframe",
           .icon = icon_named("auto-key"),
           .keys = {'K'},
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run =
               [](Workspace& w) {
@@ -222,6 +249,7 @@ std::vector<Action> time_actions() {
           .label = "Onion skin",
           .hint = "Show the keyframes before and after the current time",
           .icon = icon_named("onion"),
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run = [](Workspace& w) { w.shown.timeline.onion = !w.shown.timeline.onion; },
           .checked = [](const Workspace& w) { return w.shown.timeline.onion; },
@@ -231,6 +259,7 @@ std::vector<Action> time_actions() {
           .label = "Copy pose",
           .hint = "Copy the pose, or the keyframes that are selected",
           .keys = {{'C', kCtrl}},
+          .needs = kNeedsCage,
           .enabled = has_cage,
           .run = copy,
       },
@@ -239,6 +268,7 @@ std::vector<Action> time_actions() {
           .label = "Paste pose",
           .hint = "Paste the pose, or put the copied keyframes at the current time",
           .keys = {{'V', kCtrl}},
+          .needs = "Needs a copied pose or keyframe",
           .enabled = can_paste,
           .run = paste,
       },
@@ -247,6 +277,7 @@ std::vector<Action> time_actions() {
           .label = "Paste pose mirrored",
           .hint = "Needs a cage that is symmetric at rest",
           .keys = {{'V', kCtrlShift}},
+          .needs = "Needs a copied pose",
           .enabled = has_copied,
           .run =
               [](Workspace& w) {
