@@ -38,7 +38,8 @@ Editor::Editor(Screen& screen, Preferences preferences, const EditorOptions& opt
   workspace_.maps.on_ready([this] { screen_.wake(); });
   workspace_.run_in_background = [this](const std::string& title, Job::Work work,
                                         std::function<void()> then) {
-    workspace_.messages.complain(files_.jobs().run(title, std::move(work), std::move(then)));
+    workspace_.messages.complain(
+        files_.jobs().run_quietly(title, std::move(work), std::move(then)));
   };
   if (!options.file.empty()) files_.ask_open(options.file);
   const auto is_other = [&](const Recovery& each) {
@@ -71,6 +72,9 @@ void Editor::frame() {
     screen_.set_style(preferences_.ui_scale, preferences_.theme, preferences_.reduce_motion);
     fit_ = true;
   }
+  if (files_.jobs().take_cancel()) screen_.forget_set_aside();
+  screen_.hold(files_.jobs().quiet(), files_.jobs().running(),
+               [this](Complex px) { return press_waits(px); });
   screen_.begin_frame(navigates_items(window_focus()));
   PanelSizes sizes = PanelSizes::now();
   if (workspace_.shown.timeline.visible) sizes.timeline = timeline_.height(workspace_, sizes);
@@ -246,6 +250,26 @@ Input Editor::read_input() {
   return input;
 }
 
+/// Whether a press at a place waits until the map is known.
+bool Editor::press_waits(Complex px) const {
+  if (!workspace_.display.viewport.contains_px(px) || has_popup() || files_.asking()) return false;
+  Input input;
+  input.px = px;
+  input.inside = true;
+  input.position = workspace_.layer_view().plane_at_px(px);
+  return current_tool().waits(input, workspace_);
+}
+
+/// What the tool draws. Pins whose clicks still wait are there, too.
+ToolOverlay Editor::gesture() {
+  ToolOverlay overlay = current_tool().overlay();
+  if (!files_.jobs().running()) overlay.coming_pins.clear();
+  if (workspace_.tools.active != ToolId::pin) return overlay;
+  for (const Complex& px : screen_.waiting_presses())
+    if (workspace_.display.viewport.contains_px(px)) overlay.coming_pins.push_back(px);
+  return overlay;
+}
+
 void Editor::navigate(Input& input) {
   const bool pressed = input.pressed;
   const bool space = screen_.is_down(Key::space) && !ImGui::GetIO().WantTextInput;
@@ -362,7 +386,7 @@ void Editor::draw_panels(const Input& input, PanelSizes sizes) {
         draw_welcome(workspace_, preferences_, samples_, files_.recoverable(), thumbnails_, sizes));
   } else {
     if (last_picture_.shows() || last_picture_.solving()) last_picture_.draw(workspace_);
-    draw_overlay(workspace_, current_tool().overlay(), style);
+    draw_overlay(workspace_, gesture(), style);
     draw_split_line(workspace_.display, style);
     if (canvas_.edited().heat_values().size() > 0)
       draw_legend(workspace_, canvas_.edited().heat_scale(), canvas_.edited().heat_values(), style);

@@ -61,6 +61,8 @@ class Editor {
   /// back part of the gesture.
   void handle_key_in_gesture(const Shortcut& key);
   Input read_input();
+  bool press_waits(Complex px) const;
+  ToolOverlay gesture();
   void navigate(Input& input);
   Tool& current_tool() const;
   void use_tool(Input input);

@@ -174,7 +174,8 @@ void LastPictureView::draw(const Workspace& workspace) const {
                   vec(view.px_at_plane({box_.right, box_.bottom})));
     list.PopClipRect();
   }
-  if (solving_) draw_chip(list, {from.x + px(16), from.y + px(16)}, "Solving");
+  MarkList marks(list);
+  if (solving_) draw_chip(marks, {from.x + px(16), from.y + px(16)}, "Solving");
 }
 
 }  // namespace holomorph

@@ -159,6 +159,50 @@ void Screen::moved_to_display() {
   wake();
 }
 
+void Screen::hold(bool all, bool dialog, std::function<bool(Complex px)> waits) {
+  // What arrived before the dialog is not for it.
+  if (holds_all_ && !all && dialog) set_events_aside();
+  if (!dialog && !set_aside_.empty()) {
+    events_.insert(events_.begin(), set_aside_.begin(), set_aside_.end());
+    set_aside_.clear();
+  }
+  holds_all_ = all;
+  press_waits_ = std::move(waits);
+}
+
+/// The dialog may get the release of a button that was pressed before. That press must not stay
+/// without one.
+void Screen::set_events_aside() {
+  set_aside_ = std::exchange(events_, {});
+  bool down[3] = {mouse_down_[0], mouse_down_[1], mouse_down_[2]};
+  double x = mouse_x_, y = mouse_y_;
+  for (const Event& event : set_aside_) {
+    if (event.kind != Event::Type::move && event.kind != Event::Type::button) continue;
+    x = event.x;
+    y = event.y;
+    if (event.kind == Event::Type::button && event.code < 3)
+      down[event.code] = event.action == GLFW_PRESS;
+  }
+  for (int button = 0; button < 3; ++button)
+    if (down[button]) set_aside_.push_back({Event::Type::button, x, y, button, 0, GLFW_RELEASE});
+}
+
+bool Screen::waits(const Event& event) const {
+  const bool presses = event.kind == Event::Type::button && event.code == GLFW_MOUSE_BUTTON_LEFT &&
+                       event.action == GLFW_PRESS;
+  return holds_all_ || (presses && press_waits_ && press_waits_({event.x, event.y}));
+}
+
+Points Screen::waiting_presses() const {
+  Points places;
+  for (const std::deque<Event>* queue : {&set_aside_, &events_})
+    for (const Event& event : *queue)
+      if (event.kind == Event::Type::button && event.code == GLFW_MOUSE_BUTTON_LEFT &&
+          event.action == GLFW_PRESS)
+        places.emplace_back(event.x, event.y);
+  return places;
+}
+
 /// Passes events to ImGui until a button changes, which may open or close what later events are
 /// for, or until a key is released that was pressed in this frame, because ImGui must see it
 /// pressed. ImGui 1.86 sees only the state at the start of a frame; on slow displays, a click
@@ -172,8 +216,11 @@ void Screen::pump_events() {
     if (kind == Event::Type::button || kind == Event::Type::key) ++taken_;
     events_.pop_front();
   };
+  bool held = false;
   for (; !events_.empty() && !button_changed; taken()) {
     const Event& event = events_.front();
+    held = waits(event);
+    if (held) break;
     if (event.kind == Event::Type::move || event.kind == Event::Type::button) {
       mouse_x_ = event.x;
       mouse_y_ = event.y;
@@ -202,7 +249,7 @@ void Screen::pump_events() {
       send_wheel(io, event.x, event.y);
     }
   }
-  if (!events_.empty()) wake();
+  if (!events_.empty() && !held) wake();
   send_pointer(io, {static_cast<float>(mouse_x_),
                     static_cast<float>(mouse_y_),
                     {mouse_down_[0], mouse_down_[1], mouse_down_[2]}});

@@ -17,7 +17,7 @@ REAL, ALL = "--real" in sys.argv, "--all" in sys.argv
 sys.path.append(os.path.join(SOURCE, "tests/support"))
 from old_samples import old_sample  # noqa: E402, F401
 import timed  # noqa: E402
-from seeds import seed_of, soak  # noqa: E402, F401
+from seeds import few_or_many, seed_of, soak  # noqa: E402, F401
 sys.path.append(os.path.dirname(os.path.abspath(__file__)))
 import driver  # noqa: E402
 import recorded  # noqa: E402

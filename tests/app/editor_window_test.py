@@ -2,6 +2,7 @@
 import json
 import math
 import os
+import random
 import shutil
 import stat
 import subprocess
@@ -12,7 +13,7 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, Editor, WindowCase, real, real_in_soak, load, old_sample, run_tests, seed_of  # noqa: E402
+from case import PROGRAM, SOURCE, Editor, WindowCase, real, real_in_soak, load, old_sample, few_or_many, run_tests, seed_of  # noqa: E402
 
 RED, BLUE, GREEN = (220, 30, 30), (30, 60, 220), (20, 160, 60)
 
@@ -624,6 +625,106 @@ class EditorWindowTest(WindowCase):
                 self.assertEqual(pose[:2] + pose[3:], [[10, 10], [290, 10], [10, 190]])
                 editor.key("ctrl+z")
                 editor.wait(lambda s: s["step"] == 0, "the point where it was")
+
+    def gestures(self, rng, count):
+        """Random clicks and short drags on the picture of the gecko that start apart from each other, as lines of points."""
+        with Image.open(self.picture) as picture:
+            alpha = numpy.asarray(picture.convert("RGBA"))[:, :, 3]
+        height, width = alpha.shape
+        starts = []
+        while len(starts) < count:
+            x, y = rng.randrange(width), rng.randrange(height)
+            inside = alpha[max(0, y - 12):y + 13, max(0, x - 12):x + 13].min() > 200
+            if inside and all(math.dist((x, height - y), start) > 110 for start in starts):
+                starts.append((x, height - y))
+        return [[start] + ([(start[0] + rng.uniform(-25, 25), start[1] + rng.uniform(-25, 25)) for _ in range(rng.randint(1, 4))]
+                           if rng.random() < 0.4 else []) for start in starts]
+
+    def pinned(self, gestures, play):
+        """The pins of the scene after gestures on the picture. `play` sends lists of events, one for each gesture."""
+        scene = os.path.join(self.work, "pinned.json")
+        with Editor([self.picture]) as editor:
+            editor.wait(lambda s: s["pictured"] and s["tool"] == "pin", "the picture")
+            lines = [[editor.pixel(*point) for point in line] for line in gestures]
+            play(editor, [[["move", *line[0]], ["button", 0, True], *(["move", *point] for point in line[1:]), ["button", 0, False]]
+                          for line in lines])
+            editor.wait(lambda s: s["pins"] > 0 and not s["pending"] and not s["gesture"], "the pins")
+            editor.key("ctrl+s")
+            editor.press_item("Save")
+            editor.wait(lambda s: not s["modified"], "the saved scene")
+        saved = os.path.join(self.work, "gecko.json")
+        os.replace(saved, scene)
+        return load(scene)["pins"]
+
+    def test_quick_clicks_and_drags_end_like_slow_ones(self):
+        def slowly(editor, gestures):
+            for events in gestures:
+                for event in events:
+                    editor.send(event)
+                    editor.settle(0.3)
+                    editor.ready()
+
+        def quickly(editor, gestures):
+            while gestures:
+                some = rng.randint(1, len(gestures))
+                editor.send(*(event for events in gestures[:some] for event in events))
+                gestures = gestures[some:]
+
+        for case in range(few_or_many(2, 20)):
+            rng = random.Random(f"{seed_of('quick clicks')} {case}")
+            gestures = self.gestures(rng, rng.randint(3, 6))
+            slow, quick = self.pinned(gestures, slowly), self.pinned(gestures, quickly)
+            self.assertEqual(len(slow), len(quick), (case, gestures))
+            for a, b in zip(slow, quick):
+                self.assertLess(math.dist(a["rest"], b["rest"]), 0.5, (case, slow, quick))
+                self.assertLess(math.dist(a["pose"], b["pose"]), 0.5, (case, slow, quick))
+
+    def test_the_window_survives_extreme_poses(self):
+        """Handles far beyond what floats of the graphics library hold, with each method and tool."""
+        rng = random.Random(seed_of("extreme poses"))
+        methods = ["angles", "bounded", "cage", "har_arap", "arap", "mean_value", "pins", "puppet", "sheet", "strokes", "outline", "harmonic"]
+        samples = [os.path.join(SOURCE, "assets", name) for name in ("fern.json", "octopus.json", "snake.json", "heart.json")]
+
+        def far(point):
+            size = 10 ** rng.uniform(0, 7.9)
+            return [max(-9.9e7, min(9.9e7, value + rng.uniform(-size, size))) for value in point]
+
+        def extreme(scene):
+            method = rng.choice(methods)
+            scene["method"] = {"id": method}
+            rest = [point for segment in scene["cage"]["rest"] for point in segment]
+            if method == "outline":
+                scene.setdefault("outline", [far(rest[0]) for _ in range(5)])
+            if rng.random() < 0.7:
+                scene["cage"]["pose"] = [[far(point) for point in segment] for segment in scene["cage"]["rest"]]
+            for pin in scene.get("pins", []):
+                pin.update(pose=far(pin["rest"]), angle=rng.uniform(-9e4, 9e4), scale=10 ** rng.uniform(-2, 2))
+            for stroke in scene.get("strokes", []):
+                stroke["pose"] = [far(point) for point in stroke["rest"]]
+            scene["corners"] = [{"vertex": v, "before": rng.uniform(-900, 900), "after": rng.uniform(-900, 900)}
+                                for v in range(min(6, len(scene["cage"]["rest"])))]
+            scene.pop("keyframes", None)
+            scene.pop("surface", None)
+            scene.pop("image", None)
+            return method
+
+        crash = {"format": "holomorph", "version": 1, "cage": {"rest": [[[0, 0]], [[200, 0]], [[200, 200]], [[0, 200]]]},
+                 "method": {"id": "angles"}, "corners": [{"vertex": v, "before": turn, "after": turn} for v, turn in enumerate((0, 200, 0, -200))]}
+        for case in range(few_or_many(8, 60)):
+            scene, method = (crash, "angles") if case == 0 else (None, None)
+            if not scene:
+                scene = load(rng.choice(samples))
+                method = extreme(scene)
+            path = os.path.join(self.work, "extreme.json")
+            with open(path, "w") as file:
+                json.dump(scene, file)
+            with Editor([path]) as editor:
+                for key in "a" + "".join(rng.sample("vnpsuaogx", 9)):
+                    editor.key(key)
+                    for event in ([["move", rng.uniform(60, 1000), rng.uniform(60, 700)]],
+                                  editor.pressed("r"), editor.pressed("0"), [["scroll", rng.choice([-20, 20])]], editor.pressed("ctrl+a")):
+                        editor.send(*event)
+                        self.assertIsNone(editor.process.poll(), (case, method, key, editor.messages()))
 
     def test_two_clicks_are_a_double_click_only_if_they_are_quick(self):
         scene = self.caged((300, 200), [[10, 10], [290, 10], [290, 190], [10, 190]])

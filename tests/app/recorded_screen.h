@@ -17,6 +17,8 @@ class RecordedScreen final : public Screen {
  public:
   RecordedScreen(int width, int height, const Preferences& preferences)
       : width_(width), height_(height) {
+    // As OpenGL's does, which draws more than 65536 vertices.
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     set_style(preferences.ui_scale, preferences.theme, preferences.reduce_motion);
   }
 
@@ -61,12 +63,13 @@ class RecordedScreen final : public Screen {
   void poll(double longest) override {
     if (longest <= 0) return;
     std::unique_lock lock(mutex_);
+    constexpr auto kMoment = std::chrono::milliseconds(2);
     if (!interrupted_ && remaining_ms_ <= 0) {
-      idle_ = true;
+      idle_ = !has_events();
+      if (!idle_) wakes_.wait_for(lock, kMoment, [&] { return interrupted_; });
       return;
     }
     if (!interrupted_) {
-      constexpr auto kMoment = std::chrono::milliseconds(2);
       wakes_.wait_for(lock, kMoment, [&] { return interrupted_; });
       const double step = std::min({1000 * longest, remaining_ms_, kFrameMs});
       remaining_ms_ -= step;

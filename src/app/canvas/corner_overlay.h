@@ -2,15 +2,16 @@
 // reached the smallest angle.
 #pragma once
 
+#include "app/canvas/mark_list.h"
 #include "app/canvas/overlay.h"
 
 namespace holomorph {
 
 /// Draws the images of the cage's edges and vertices under the map, and the ring and arms of the
 /// chosen corner.
-void draw_corners(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+void draw_corners(MarkList& list, const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style);
 /// Marks each corner that would fold if it were closed further.
-void draw_limited_corners(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style);
+void draw_limited_corners(MarkList& list, const Workspace& workspace, const OverlayStyle& style);
 
 }  // namespace holomorph

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/canvas/mark_list.h"
 #include "app/canvas/overlay.h"
 
 namespace holomorph {
@@ -45,6 +46,7 @@ void draw_legend(const Workspace& workspace, const HeatScale& scale, const Eigen
   const Complex at = workspace.at_rest() ? workspace.map().prepared()->mesh->vertices[worst]
                                          : workspace.map().map().f[worst];
   const ImVec2 p = px(workspace, at);
+  if (!can_draw_at(p)) return;
   char text[48];
   if (std::isfinite(values[worst]))
     std::snprintf(text, sizeof text, "Worst: %.3g", values[worst]);

@@ -33,21 +33,20 @@ void draw_loops(const Workspace& workspace, PolygonView polygon, Draw draw) {
   for (Index l = 0; l < polygon.loops().count(); ++l) draw(window_line(workspace, polygon.loop(l)));
 }
 
-void draw_cage(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
+void draw_cage(MarkList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
                const OverlayStyle& style) {
   draw_loops(workspace, outline_of(cage, 24), [&](const std::vector<ImVec2>& line) {
     if (line.size() < 2) return;
     if (workspace.mode == EditMode::pose) return draw_line(list, line, true, color, style);
     const float width = static_cast<float>(style.scale);
-    list.AddPolyline(line.data(), static_cast<int>(line.size()), style.colors.outline,
-                     ImDrawFlags_Closed, 3.5f * width);
+    list.polyline(line, true, style.colors.outline, 3.5f * width);
     draw_dashes(list, line, line.size() > 2, color, style);
   });
 }
 
 /// Draws lines from each vertex to its tangent handles. For segments whose degree is not 3, draws
 /// the whole control polygon.
-void draw_tangents(ImDrawList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
+void draw_tangents(MarkList& list, const Workspace& workspace, const Cage& cage, ImU32 color,
                    const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   for (Index e = 0; e < cage.size(); ++e) {
@@ -55,13 +54,13 @@ void draw_tangents(ImDrawList& list, const Workspace& workspace, const Cage& cag
     for (size_t m = 0; controls.size() > 2 && m + 1 < controls.size(); ++m) {
       if (controls.size() == 4 && m == 1) continue;
       const ImVec2 a = px(workspace, controls[m]), b = px(workspace, controls[m + 1]);
-      list.AddLine(a, b, style.colors.outline, 2.4f * s);
-      list.AddLine(a, b, color, 1.1f * s);
+      list.line(a, b, style.colors.outline, 2.4f * s);
+      list.line(a, b, color, 1.1f * s);
     }
   }
 }
 
-void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+void draw_gesture(MarkList& list, const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   if (!gesture.line.empty()) {
@@ -75,16 +74,16 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
   }
   if (gesture.insertion) {
     const ImVec2 at = px(workspace, *gesture.insertion);
-    list.AddCircleFilled(at, 7 * s, style.colors.outline);
-    list.AddCircleFilled(at, 5.5f * s, style.colors.hover);
-    list.AddLine({at.x - 3 * s, at.y}, {at.x + 3 * s, at.y}, IM_COL32_BLACK, 1.5f * s);
-    list.AddLine({at.x, at.y - 3 * s}, {at.x, at.y + 3 * s}, IM_COL32_BLACK, 1.5f * s);
+    list.fill_circle(at, 7 * s, style.colors.outline);
+    list.fill_circle(at, 5.5f * s, style.colors.hover);
+    list.line({at.x - 3 * s, at.y}, {at.x + 3 * s, at.y}, IM_COL32_BLACK, 1.5f * s);
+    list.line({at.x, at.y - 3 * s}, {at.x, at.y + 3 * s}, IM_COL32_BLACK, 1.5f * s);
   }
   for (const Guide& guide : gesture.guides) {
     const ImVec2 from = px(workspace, guide.from), to = px(workspace, guide.to);
-    list.AddLine(from, to, style.colors.outline, 2.6f * s);
-    list.AddLine(from, to, style.colors.hover, 1.2f * s);
-    list.AddCircle(from, 4 * s, style.colors.hover, 0, 1.2f * s);
+    list.line(from, to, style.colors.outline, 2.6f * s);
+    list.line(from, to, style.colors.hover, 1.2f * s);
+    list.circle(from, 4 * s, style.colors.hover, 1.2f * s);
   }
   if (gesture.box) draw_box(list, *gesture.box, style);
   if (gesture.marquee) {
@@ -92,8 +91,8 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
                    static_cast<float>(gesture.marquee->bottom));
     const ImVec2 b(static_cast<float>(gesture.marquee->right),
                    static_cast<float>(gesture.marquee->top));
-    list.AddRectFilled(a, b, (style.colors.accent & 0x00ffffff) | 0x30000000);
-    list.AddRect(a, b, style.colors.accent, 0, 0, 1.2f * s);
+    list.fill_rect(a, b, (style.colors.accent & 0x00ffffff) | 0x30000000);
+    list.rect(a, b, style.colors.accent, 0, 1.2f * s);
   }
   if (gesture.ring &&
       *gesture.ring < static_cast<Index>(workspace.shown.deformation().pins.size())) {
@@ -109,7 +108,7 @@ void draw_gesture(ImDrawList& list, const Workspace& workspace, const ToolOverla
 }
 
 /// Draws the edge of what pins may move: arcs around them.
-void draw_held_region(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
+void draw_held_region(MarkList& list, const Workspace& workspace, const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   if (!deformation.held_beyond || !can_choose_frame(workspace) ||
       workspace.tools.active != ToolId::pin)
@@ -120,8 +119,7 @@ void draw_held_region(ImDrawList& list, const Workspace& workspace, const Overla
     std::vector<ImVec2> arc;
     const auto end_arc = [&] {
       if (arc.size() > 1) {
-        list.AddPolyline(arc.data(), static_cast<int>(arc.size()), style.colors.outline, 0,
-                         3 * static_cast<float>(style.scale));
+        list.polyline(arc, false, style.colors.outline, 3 * static_cast<float>(style.scale));
         draw_dashes(list, arc, false, style.colors.pin, style);
       }
       arc.clear();
@@ -141,7 +139,7 @@ void draw_held_region(ImDrawList& list, const Workspace& workspace, const Overla
 }
 
 /// Draws a stroke. Its start is a dot, its end an arrow.
-void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
+void draw_stroke(MarkList& list, const Workspace& workspace, Handle handle, bool hovered,
                  const OverlayStyle& style) {
   const EditMode mode = workspace.mode;
   const Deformation& deformation = workspace.shown.deformation();
@@ -154,8 +152,8 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
       window_line(workspace, curve_of(deformation, handle.index, mode));
   draw_line(list, line, false, color, style, 2.25f);
   const float s = static_cast<float>(style.scale);
-  list.AddCircleFilled(line.front(), 5.5f * s, style.colors.outline);
-  list.AddCircleFilled(line.front(), 4 * s, color);
+  list.fill_circle(line.front(), 5.5f * s, style.colors.outline);
+  list.fill_circle(line.front(), 4 * s, color);
   if (line.size() < 2) return;
   const ImVec2 end = line.back();
   ImVec2 from = line[line.size() - 2];
@@ -172,7 +170,7 @@ void draw_stroke(ImDrawList& list, const Workspace& workspace, Handle handle, bo
 }
 
 /// Draws the radius of a soft drag, and marks the handles that symmetry will move as well.
-void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+void draw_influence(MarkList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   Selection dragged = workspace.selection;
   if (gesture.hover) dragged.insert(*gesture.hover);
@@ -186,21 +184,21 @@ void draw_influence(ImDrawList& list, const Workspace& workspace, const ToolOver
     if (workspace.tools.drag.soft && (gesture.hover == handle || dragged.size() == 1)) {
       const ImVec2 at = px(workspace, position_of(deformation, handle, workspace.mode));
       const float r = static_cast<float>(workspace.tools.drag.reach * workspace.layer_view().zoom);
-      list.AddCircle(at, r, IM_COL32(0, 0, 0, 80), 96, 2.4f * s);
-      list.AddCircle(at, r, style.colors.hover, 96, 1 * s);
+      list.circle(at, r, IM_COL32(0, 0, 0, 80), 2.4f * s);
+      list.circle(at, r, style.colors.hover, 1 * s);
     }
     const auto other = counterparts.find(handle);
     if (other != counterparts.end() && exists(deformation, other->second, workspace.mode)) {
       const ImVec2 at = px(workspace, position_of(deformation, other->second, workspace.mode));
-      list.AddCircle(at, 9 * s, style.colors.outline, 0, 3.4f * s);
-      list.AddCircle(at, 9 * s, style.colors.selected, 0, 1.8f * s);
+      list.circle(at, 9 * s, style.colors.outline, 3.4f * s);
+      list.circle(at, 9 * s, style.colors.selected, 1.8f * s);
     }
   }
 }
 
 /// Draws the painted stiffness and the brush. Plus signs mark stiff parts, and rings mark soft
 /// ones; they are larger where the paint is stronger.
-void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+void draw_stiffness(MarkList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   const std::vector<BrushDab>& dabs =
@@ -219,38 +217,36 @@ void draw_stiffness(ImDrawList& list, const Workspace& workspace, const ToolOver
                                                    : 2 + 2 * level / kMinStiffness) *
                       s;
       if (level > 0) {
-        list.AddRectFilled({at.x - r - s, at.y - 1.6f * s}, {at.x + r + s, at.y + 1.6f * s},
-                           style.colors.outline);
-        list.AddRectFilled({at.x - 1.6f * s, at.y - r - s}, {at.x + 1.6f * s, at.y + r + s},
-                           style.colors.outline);
-        list.AddLine({at.x - r, at.y}, {at.x + r, at.y}, style.colors.selected, 1.4f * s);
-        list.AddLine({at.x, at.y - r}, {at.x, at.y + r}, style.colors.selected, 1.4f * s);
+        list.fill_rect({at.x - r - s, at.y - 1.6f * s}, {at.x + r + s, at.y + 1.6f * s},
+                       style.colors.outline);
+        list.fill_rect({at.x - 1.6f * s, at.y - r - s}, {at.x + 1.6f * s, at.y + r + s},
+                       style.colors.outline);
+        list.line({at.x - r, at.y}, {at.x + r, at.y}, style.colors.selected, 1.4f * s);
+        list.line({at.x, at.y - r}, {at.x, at.y + r}, style.colors.selected, 1.4f * s);
       } else {
-        list.AddCircle(at, r, style.colors.outline, 0, 3 * s);
-        list.AddCircle(at, r, style.colors.pin, 0, 1.4f * s);
+        list.circle(at, r, style.colors.outline, 3 * s);
+        list.circle(at, r, style.colors.pin, 1.4f * s);
       }
     }
   }
   if (!gesture.brush) return;
   const float radius =
       static_cast<float>(workspace.tools.brush_radius * workspace.layer_view().zoom);
-  list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.outline, 64, 3 * s);
-  list.AddCircle(px(workspace, *gesture.brush), radius, style.colors.hover, 64, 1.4f * s);
+  list.circle(px(workspace, *gesture.brush), radius, style.colors.outline, 3 * s);
+  list.circle(px(workspace, *gesture.brush), radius, style.colors.hover, 1.4f * s);
 }
 
 /// Draws the outlines of the keyframes before and after the current time, in the tints of their
 /// onion skins.
-void draw_onion(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
+void draw_onion(MarkList& list, const Workspace& workspace, const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   for (const OnionSkin& skin : workspace.onion_skins()) {
     std::vector<ImVec2> line;
     for (const int v : workspace.map().prepared()->mesh->boundary)
       line.push_back(px(workspace, skin.f[v]));
-    const int count = static_cast<int>(line.size());
     const Color tint = onion_color(skin.later);
-    list.AddPolyline(line.data(), count, IM_COL32(0, 0, 0, 110), ImDrawFlags_Closed, 3 * s);
-    list.AddPolyline(line.data(), count, ImGui::GetColorU32({tint[0], tint[1], tint[2], 0.9f}),
-                     ImDrawFlags_Closed, 1.6f * s);
+    list.polyline(line, true, IM_COL32(0, 0, 0, 110), 3 * s);
+    list.polyline(line, true, ImGui::GetColorU32({tint[0], tint[1], tint[2], 0.9f}), 1.6f * s);
   }
 }
 
@@ -315,7 +311,7 @@ Polygon edge_of(const Workspace& workspace) {
   return edge;
 }
 
-void draw_faint_cage(ImDrawList& list, const Workspace& workspace, PolygonView cage, ImU32 color,
+void draw_faint_cage(MarkList& list, const Workspace& workspace, PolygonView cage, ImU32 color,
                      const OverlayStyle& style) {
   draw_loops(workspace, cage, [&](const std::vector<ImVec2>& line) {
     draw_faint_line(list, line, true, color, style);
@@ -323,7 +319,7 @@ void draw_faint_cage(ImDrawList& list, const Workspace& workspace, PolygonView c
 }
 
 /// Draws the cage with its tangents, the cage that the map really has, and the outline.
-void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
+void draw_curves(MarkList& list, const Workspace& workspace, CageLook look,
                  const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   const bool acts = has_cage_handles(deformation, workspace.mode);
@@ -337,7 +333,7 @@ void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
       draw_line(list, line, true, style.colors.pin, style);
     });
     for (const Complex& z : controls_of(*solved))
-      list.AddCircleFilled(px(workspace, z), 3 * static_cast<float>(style.scale), style.colors.pin);
+      list.fill_circle(px(workspace, z), 3 * static_cast<float>(style.scale), style.colors.pin);
   }
   if (deformation.has_cage() && acts && look.points)
     draw_tangents(list, workspace, cage_of(deformation, workspace.mode), look.color, style);
@@ -347,7 +343,7 @@ void draw_curves(ImDrawList& list, const Workspace& workspace, CageLook look,
 }
 
 /// Marks pins that the map misses, zeros of its derivative, and corners at their limit.
-void draw_map_marks(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
+void draw_map_marks(MarkList& list, const Workspace& workspace, const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   const auto& posed = workspace.map().posed();
   if (!posed || !same_rest(*posed, deformation)) return;
@@ -360,7 +356,7 @@ void draw_map_marks(ImDrawList& list, const Workspace& workspace, const OverlayS
   if (!at_rest) draw_limited_corners(list, workspace, style);
 }
 
-void draw_cage_point(ImDrawList& list, const Workspace& workspace, Handle handle, bool hovered,
+void draw_cage_point(MarkList& list, const Workspace& workspace, Handle handle, bool hovered,
                      CageLook look, const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   const ImVec2 at = px(workspace, position_of(deformation, handle, workspace.mode));
@@ -371,7 +367,7 @@ void draw_cage_point(ImDrawList& list, const Workspace& workspace, Handle handle
     draw_smooth_mark(list, at, style);
 }
 
-void draw_handles(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+void draw_handles(MarkList& list, const Workspace& workspace, const ToolOverlay& gesture,
                   CageLook look, const OverlayStyle& style) {
   const Deformation& deformation = workspace.shown.deformation();
   const bool by_angles =
@@ -391,7 +387,7 @@ void draw_handles(ImDrawList& list, const Workspace& workspace, const ToolOverla
 }
 
 /// Fills the visible folds and puts a ring around each.
-void draw_folds(ImDrawList& list, const Workspace& workspace, const OverlayStyle& style) {
+void draw_folds(MarkList& list, const Workspace& workspace, const OverlayStyle& style) {
   if (workspace.at_rest() || !workspace.map().has_map()) return;
   const Mesh& mesh = *workspace.map().prepared()->mesh;
   const VectorXc& f = workspace.map().map().f;
@@ -401,17 +397,17 @@ void draw_folds(ImDrawList& list, const Workspace& workspace, const OverlayStyle
   for (const Fold& fold : workspace.folds()) {
     for (const int t : fold.triangles) {
       const auto [i, j, k] = mesh.triangles[static_cast<size_t>(t)];
-      list.AddTriangleFilled(px(workspace, f[i]), px(workspace, f[j]), px(workspace, f[k]),
-                             (style.colors.fold & 0x00ffffff) | 0x70000000);
+      list.fill_triangle(px(workspace, f[i]), px(workspace, f[j]), px(workspace, f[k]),
+                         (style.colors.fold & 0x00ffffff) | 0x70000000);
     }
     const float radius = std::clamp(
         static_cast<float>(fold.radius * workspace.layer_view().zoom) + 6 * s, 10 * s, 400 * s);
-    list.AddCircle(px(workspace, fold.at), radius, style.colors.outline, 0, 3.5f * s);
-    list.AddCircle(px(workspace, fold.at), radius, style.colors.fold, 0, 1.5f * s);
+    list.circle(px(workspace, fold.at), radius, style.colors.outline, 3.5f * s);
+    list.circle(px(workspace, fold.at), radius, style.colors.fold, 1.5f * s);
   }
 }
 
-void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOverlay& gesture,
+void draw_structure(MarkList& list, const Workspace& workspace, const ToolOverlay& gesture,
                     const OverlayStyle& style) {
   draw_onion(list, workspace, style);
   if (workspace.display.show_cage && gesture.line.empty()) {
@@ -429,10 +425,11 @@ void draw_structure(ImDrawList& list, const Workspace& workspace, const ToolOver
   if (gesture.shows_dabs) draw_stiffness(list, workspace, gesture, style);
   if (workspace.display.show_cage) draw_influence(list, workspace, gesture, style);
   draw_gesture(list, workspace, gesture, style);
+  for (const Complex& at : gesture.coming_pins) draw_pin(list, vec(at), Pin{}, false, false, style);
 }
 
 /// Draws what a layer can be attached to.
-void draw_targets(ImDrawList& list, const std::vector<TargetMark>& targets,
+void draw_targets(MarkList& list, const std::vector<TargetMark>& targets,
                   const OverlayStyle& style) {
   const float s = static_cast<float>(style.scale);
   for (const TargetMark& target : targets) {
@@ -448,10 +445,10 @@ void draw_targets(ImDrawList& list, const std::vector<TargetMark>& targets,
       const float r = 9 * s;
       for (const auto& [color, width] :
            {std::pair(style.colors.outline, 4 * s), {style.colors.hover, 2 * s}}) {
-        list.AddCircle(at, r, color, 0, width);
+        list.circle(at, r, color, width);
         for (const ImVec2 way : {ImVec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-          list.AddLine({at.x + r * way.x, at.y + r * way.y},
-                       {at.x + 1.7f * r * way.x, at.y + 1.7f * r * way.y}, color, width);
+          list.line({at.x + r * way.x, at.y + r * way.y},
+                    {at.x + 1.7f * r * way.x, at.y + 1.7f * r * way.y}, color, width);
       }
     }
   }
@@ -461,38 +458,39 @@ void draw_targets(ImDrawList& list, const std::vector<TargetMark>& targets,
 
 void draw_overlay(const Workspace& workspace, const ToolOverlay& gesture,
                   const OverlayStyle& style) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  ImDrawList& background = *ImGui::GetBackgroundDrawList();
+  MarkList list(background);
   if (!workspace.display.hide_overlays && !workspace.display.show_original &&
       workspace.document.scene().layer().visible) {
     // The overlay is drawn only in the "after" part, which shows the pose.
     const Viewport view = workspace.layer_view();
     const double from = view.left + workspace.display.split.value_or(0) * view.width;
-    list.PushClipRect(
+    background.PushClipRect(
         {static_cast<float>(from), static_cast<float>(view.top)},
         {static_cast<float>(view.left + view.width), static_cast<float>(view.top + view.height)});
     draw_structure(list, workspace, gesture, style);
     draw_targets(list, gesture.targets, style);
-    list.PopClipRect();
+    background.PopClipRect();
   }
 }
 
 void draw_proposed_cage(const Workspace& workspace, const Cage& cage, const OverlayStyle& style) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  MarkList list(*ImGui::GetBackgroundDrawList());
   draw_loops(workspace, outline_of(cage), [&](const std::vector<ImVec2>& line) {
     draw_line(list, line, true, style.colors.pose, style);
   });
 }
 
 void draw_marker(const Workspace& workspace, Complex where, const OverlayStyle& style) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  MarkList list(*ImGui::GetBackgroundDrawList());
   const ImVec2 at = px(workspace, where);
   const float s = static_cast<float>(style.scale), r = 16 * s;
-  list.AddCircle(at, r, style.colors.outline, 0, 6 * s);
-  list.AddCircle(at, r, style.colors.warning, 0, 3 * s);
-  list.AddLine({at.x - 6 * s, at.y - 6 * s}, {at.x + 6 * s, at.y + 6 * s}, style.colors.warning,
-               3 * s);
-  list.AddLine({at.x - 6 * s, at.y + 6 * s}, {at.x + 6 * s, at.y - 6 * s}, style.colors.warning,
-               3 * s);
+  list.circle(at, r, style.colors.outline, 6 * s);
+  list.circle(at, r, style.colors.warning, 3 * s);
+  list.line({at.x - 6 * s, at.y - 6 * s}, {at.x + 6 * s, at.y + 6 * s}, style.colors.warning,
+            3 * s);
+  list.line({at.x - 6 * s, at.y + 6 * s}, {at.x + 6 * s, at.y - 6 * s}, style.colors.warning,
+            3 * s);
 }
 
 }  // namespace holomorph

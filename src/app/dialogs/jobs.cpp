@@ -8,12 +8,13 @@
 
 #include "app/look/controls.h"
 #include "app/look/surfaces.h"
+#include "core/clock.h"
 
 namespace holomorph {
 namespace {
 
 /// Jobs that end within this time, in ms, show no dialog. This avoids flicker.
-constexpr double kShortMs = 60;
+constexpr double kShortMs = 60, kQuietMs = 2000;
 
 }  // namespace
 
@@ -21,7 +22,19 @@ std::string Jobs::run(const std::string& title, Job::Work work, std::function<vo
   if (job_) abandon();
   job_ = std::make_unique<Job>(title, std::move(work), wake_);
   then_ = std::move(then);
+  quiet_until_ms_ = 0;
   return job_->ended_within(kShortMs) ? finish() : "";
+}
+
+std::string Jobs::run_quietly(const std::string& title, Job::Work work,
+                              std::function<void()> then) {
+  std::string error = run(title, std::move(work), std::move(then));
+  quiet_until_ms_ = now_ms() + kQuietMs;
+  return error;
+}
+
+bool Jobs::quiet() const {
+  return job_ && now_ms() < quiet_until_ms_;
 }
 
 void Jobs::abandon() {
@@ -45,6 +58,10 @@ std::string Jobs::finish() {
 void Jobs::draw() {
   std::erase_if(abandoned_, [](const auto& job) { return job->ended(); });
   if (!job_) return;
+  if (quiet()) {
+    if (job_->ended()) workspace_.messages.complain(finish());
+    return;
+  }
   if (!begin_dialog(job_->title(), "###job", 420)) return;
   const int done = job_->done(), all = job_->all();
   const ThemeColors& c = theme_colors();
@@ -70,6 +87,7 @@ void Jobs::draw() {
       button("Cancel", ButtonKind::secondary, px(96)) || dialog_key() == DialogKey::escape;
   if (cancel) {
     abandon();
+    canceled_ = true;
     workspace_.messages.say("Canceled.");
   } else if (job_->ended()) {
     workspace_.messages.complain(finish());

@@ -16,6 +16,10 @@ class BrushTool final : public Tool {
  public:
   ToolId id() const override { return ToolId::brush; }
 
+  bool waits(const Input&, const Workspace& workspace) const override {
+    return workspace.map().busy();
+  }
+
   void input(const Input& input, Workspace& workspace) override {
     position_ = input.inside ? std::optional(input.position) : std::nullopt;
     radius_ = workspace.tools.brush_radius;

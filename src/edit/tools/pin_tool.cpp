@@ -15,8 +15,17 @@ class PinTool final : public HandleTool {
  public:
   ToolId id() const override { return ToolId::pin; }
 
+  /// The place of a new pin is known only when the picture is where the user sees it.
+  bool waits(const Input& input, const Workspace& workspace) const override {
+    if (!workspace.map().busy() || handle_at(workspace, input.px)) return false;
+    PinRing ring = ring_;
+    ring.hover(input, workspace);
+    HoldCircle circle = circle_;
+    circle.hover(input, workspace);
+    return !ring.hovered() && !circle.hovered();
+  }
+
   void input(const Input& input, Workspace& workspace) override {
-    down_ = input.down;
     if (circle_.active()) return circle_.follow(input, workspace);
     if (follow(input, workspace)) return;
     find(input, workspace);
@@ -49,10 +58,15 @@ class PinTool final : public HandleTool {
   void cancel(Workspace& workspace) override {
     HandleTool::cancel(workspace);
     circle_.cancel(workspace);
-    down_ = false;
+    coming_.reset();
   }
   bool busy() const override { return HandleTool::busy() || circle_.active(); }
   bool has_ring() const override { return true; }
+  ToolOverlay overlay() const override {
+    ToolOverlay overlay = HandleTool::overlay();
+    if (coming_) overlay.coming_pins.push_back(*coming_);
+    return overlay;
+  }
 
   std::string hint(const Workspace& workspace) const override {
     if (!workspace.shown.deformation().has_cage())
@@ -84,8 +98,10 @@ class PinTool final : public HandleTool {
   void set_first(const Input& input, Workspace& workspace) {
     if (!workspace.document.image())
       return workspace.messages.say(needs_a_cage(workspace, "Pins need a cage"));
+    coming_ = input.px;
     const Method& method = method_of_first_pin(workspace);
     make_picture_cage(workspace, method, [this, input, &workspace](Cage cage) {
+      coming_.reset();
       if (!encloses(outline_of(cage), input.position)) {
         workspace.messages.say("There is nothing here. Click the picture to set a pin.");
         return false;
@@ -98,7 +114,6 @@ class PinTool final : public HandleTool {
       if (scene.deformation().frame != Frame::free) scene = without_original(std::move(scene));
       if (!workspace.commit_layers("Add pin", std::move(scene))) return false;
       hold_last(input, workspace);
-      if (!down_) drag_.cancel(workspace);  // making the cage took longer than the click
       return true;
     });
   }
@@ -106,7 +121,7 @@ class PinTool final : public HandleTool {
   bool on_circle() const { return circle_.hovered() && !hover_ && !ring_.hovered(); }
 
   HoldCircle circle_;
-  bool down_ = false;  ///< whether the button was down at the last input
+  std::optional<Complex> coming_;  ///< where the first pin will be, in window px
 };
 
 }  // namespace

@@ -18,6 +18,10 @@ class StrokeTool final : public HandleTool {
  public:
   ToolId id() const override { return ToolId::stroke; }
 
+  bool waits(const Input& input, const Workspace& workspace) const override {
+    return workspace.map().busy() && !handle_at(workspace, input.px);
+  }
+
   void input(const Input& input, Workspace& workspace) override {
     if (drawing_.active()) {
       if (drawing_.follow(input)) finish(workspace);
