@@ -36,10 +36,11 @@ Editor::Editor(Screen& screen, Preferences preferences, const EditorOptions& opt
   tools_.push_back(brush_tool());
   tools_.push_back(attach_tool());
   workspace_.maps.on_ready([this] { screen_.wake(); });
-  workspace_.run_in_background = [this](const std::string& title, Job::Work work,
+  workspace_.run_in_background = [this](const std::string& title, bool quietly, Job::Work work,
                                         std::function<void()> then) {
-    workspace_.messages.complain(
-        files_.jobs().run_quietly(title, std::move(work), std::move(then)));
+    Jobs& jobs = files_.jobs();
+    workspace_.messages.complain(quietly ? jobs.run_quietly(title, std::move(work), std::move(then))
+                                         : jobs.run(title, std::move(work), std::move(then)));
   };
   if (!options.file.empty()) files_.ask_open(options.file);
   const auto is_other = [&](const Recovery& each) {
@@ -72,9 +73,11 @@ void Editor::frame() {
     screen_.set_style(preferences_.ui_scale, preferences_.theme, preferences_.reduce_motion);
     fit_ = true;
   }
-  if (files_.jobs().take_cancel()) screen_.forget_set_aside();
-  screen_.hold(files_.jobs().quiet(), files_.jobs().running(),
-               [this](Complex px) { return press_waits(px); });
+  if (screen_.holds_escape()) {
+    if (files_.jobs().quiet()) files_.jobs().cancel();
+    screen_.discard_held();
+  }
+  screen_.hold(files_.jobs().quiet(), [this](Complex px) { return press_waits(px); });
   screen_.begin_frame(navigates_items(window_focus()));
   PanelSizes sizes = PanelSizes::now();
   if (workspace_.shown.timeline.visible) sizes.timeline = timeline_.height(workspace_, sizes);
@@ -250,9 +253,15 @@ Input Editor::read_input() {
   return input;
 }
 
-/// Whether a press at a place waits until the map is known.
+/// Whether a press at a position waits until the map is known. Presses that are not for the tool do
+/// not, as far as the last frame tells.
 bool Editor::press_waits(Complex px) const {
-  if (!workspace_.display.viewport.contains_px(px) || has_popup() || files_.asking()) return false;
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool over_panel = io.WantCaptureMouse && Complex(io.MousePos.x, io.MousePos.y) == px;
+  if (over_panel || !workspace_.display.viewport.contains_px(px) || has_popup() ||
+      files_.asking() || keys_.open() || palette_.open() || screen_.is_down(Key::space) ||
+      is_before(workspace_.display, px))
+    return false;
   Input input;
   input.px = px;
   input.inside = true;
@@ -263,10 +272,12 @@ bool Editor::press_waits(Complex px) const {
 /// What the tool draws. Pins whose clicks still wait are there, too.
 ToolOverlay Editor::gesture() {
   ToolOverlay overlay = current_tool().overlay();
-  if (!files_.jobs().running()) overlay.coming_pins.clear();
+  const bool first = files_.jobs().quiet();
+  if (!first) overlay.coming_pins.clear();
   if (workspace_.tools.active != ToolId::pin) return overlay;
-  for (const Complex& px : screen_.waiting_presses())
-    if (workspace_.display.viewport.contains_px(px)) overlay.coming_pins.push_back(px);
+  for (const Complex& px : screen_.held_presses())
+    if (first ? workspace_.display.viewport.contains_px(px) : press_waits(px))
+      overlay.coming_pins.push_back(px);
   return overlay;
 }
 
@@ -343,6 +354,7 @@ void Editor::answer(const PanelAnswer& wanted) {
 }
 
 void Editor::document_replaced() {
+  screen_.discard_held();
   for (const auto& tool : tools_) tool->cancel(workspace_);
   canvas_.forget();
   last_picture_.opened(workspace_);
@@ -443,6 +455,9 @@ void Editor::draw_cards(const OverlayStyle& style, PanelSizes sizes) {
 StatusLine Editor::status_of(const Input& input) {
   StatusLine status;
   status.hint = current_tool().hint(workspace_);
+  if (screen_.holds())
+    status.hint = (files_.jobs().quiet() ? files_.jobs().title() : "Finding the map") +
+                  ". What you do waits for it; Esc cancels";
   if (workspace_.shows_surface() && surface_pane_.hovered()) status.hint = SurfacePane::hint();
   if (panel_focus_.held())
     status.hint = "Press Esc for the canvas; use arrow keys, Tab and Enter in this panel; press " +

@@ -159,48 +159,50 @@ void Screen::moved_to_display() {
   wake();
 }
 
-void Screen::hold(bool all, bool dialog, std::function<bool(Complex px)> waits) {
-  // What arrived before the dialog is not for it.
-  if (holds_all_ && !all && dialog) set_events_aside();
-  if (!dialog && !set_aside_.empty()) {
-    events_.insert(events_.begin(), set_aside_.begin(), set_aside_.end());
-    set_aside_.clear();
-  }
+void Screen::hold(bool all, std::function<bool(Complex px)> waits) {
   holds_all_ = all;
   press_waits_ = std::move(waits);
 }
 
-/// The dialog may get the release of a button that was pressed before. That press must not stay
-/// without one.
-void Screen::set_events_aside() {
-  set_aside_ = std::exchange(events_, {});
-  bool down[3] = {mouse_down_[0], mouse_down_[1], mouse_down_[2]};
-  double x = mouse_x_, y = mouse_y_;
-  for (const Event& event : set_aside_) {
-    if (event.kind != Event::Type::move && event.kind != Event::Type::button) continue;
-    x = event.x;
-    y = event.y;
-    if (event.kind == Event::Type::button && event.code < 3)
-      down[event.code] = event.action == GLFW_PRESS;
+bool Screen::is_left_press(const Event& event) {
+  return event.kind == Event::Type::button && event.code == GLFW_MOUSE_BUTTON_LEFT &&
+         event.action == GLFW_PRESS;
+}
+
+bool Screen::waits(const Event& event) {
+  if (holds_all_) return true;
+  if (!is_left_press(event) || !press_waits_ || !press_waits_({event.x, event.y})) return false;
+  // Only a frame with the pointer there tells whether the press is for the canvas.
+  if (mouse_x_ != event.x || mouse_y_ != event.y) wake();
+  mouse_x_ = event.x;
+  mouse_y_ = event.y;
+  return true;
+}
+
+bool Screen::holds_escape() const {
+  return held_back_ && std::ranges::any_of(events_, [](const Event& event) {
+           return event.kind == Event::Type::key && event.code == GLFW_KEY_ESCAPE &&
+                  event.action == GLFW_PRESS;
+         });
+}
+
+void Screen::discard_held() {
+  if (!held_back_) return;
+  for (const Event& event : std::exchange(events_, {})) {
+    if (event.action != GLFW_RELEASE) continue;
+    if (event.kind == Event::Type::button && event.code < 3) mouse_down_[event.code] = false;
+    if (event.kind != Event::Type::key) continue;
+    held_.erase(event.code);
+    send_key(ImGui::GetIO(), event.code, false);
   }
-  for (int button = 0; button < 3; ++button)
-    if (down[button]) set_aside_.push_back({Event::Type::button, x, y, button, 0, GLFW_RELEASE});
 }
 
-bool Screen::waits(const Event& event) const {
-  const bool presses = event.kind == Event::Type::button && event.code == GLFW_MOUSE_BUTTON_LEFT &&
-                       event.action == GLFW_PRESS;
-  return holds_all_ || (presses && press_waits_ && press_waits_({event.x, event.y}));
-}
-
-Points Screen::waiting_presses() const {
-  Points places;
-  for (const std::deque<Event>* queue : {&set_aside_, &events_})
-    for (const Event& event : *queue)
-      if (event.kind == Event::Type::button && event.code == GLFW_MOUSE_BUTTON_LEFT &&
-          event.action == GLFW_PRESS)
-        places.emplace_back(event.x, event.y);
-  return places;
+Points Screen::held_presses() const {
+  Points positions;
+  if (held_back_)
+    for (const Event& event : events_)
+      if (is_left_press(event)) positions.emplace_back(event.x, event.y);
+  return positions;
 }
 
 /// Passes events to ImGui until a button changes, which may open or close what later events are
@@ -216,11 +218,13 @@ void Screen::pump_events() {
     if (kind == Event::Type::button || kind == Event::Type::key) ++taken_;
     events_.pop_front();
   };
-  bool held = false;
+  held_back_ = false;
   for (; !events_.empty() && !button_changed; taken()) {
     const Event& event = events_.front();
-    held = waits(event);
-    if (held) break;
+    // A key may choose another tool, or undo something.
+    if (is_left_press(event) && !pressed.empty()) break;
+    held_back_ = waits(event);
+    if (held_back_) break;
     if (event.kind == Event::Type::move || event.kind == Event::Type::button) {
       mouse_x_ = event.x;
       mouse_y_ = event.y;
@@ -249,7 +253,7 @@ void Screen::pump_events() {
       send_wheel(io, event.x, event.y);
     }
   }
-  if (!events_.empty() && !held) wake();
+  if (!events_.empty() && !held_back_) wake();
   send_pointer(io, {static_cast<float>(mouse_x_),
                     static_cast<float>(mouse_y_),
                     {mouse_down_[0], mouse_down_[1], mouse_down_[2]}});

@@ -34,14 +34,18 @@ class Screen {
   bool wait(double longest);
   /// Makes wait() return. May be called from any thread.
   void wake();
-  /// Makes input wait in the next frame, in order and with the positions where it happened: all of
-  /// it, or that which arrived before a dialog opened that takes all later input, or that from the
-  /// first press on for which `waits` is true.
-  void hold(bool all, bool dialog, std::function<bool(Complex px)> waits);
-  /// Forgets the input that arrived before such a dialog, because the user has canceled.
-  void forget_set_aside() { set_aside_.clear(); }
-  /// Where presses of the left button wait.
-  Points waiting_presses() const;
+  /// Holds input in the next frame, in order and with the positions where it happened: all of it,
+  /// or from the first press of the left button on for which `waits` is true. The pointer already
+  /// is where that press happened.
+  void hold(bool all, std::function<bool(Complex px)> waits);
+  /// Whether input was held in the last frame.
+  bool holds() const { return held_back_; }
+  /// Whether Escape is among the input that is held.
+  bool holds_escape() const;
+  /// Forgets the input that is held. Keys and buttons that were released meanwhile are up.
+  void discard_held();
+  /// The positions of the presses of the left button that are held.
+  Points held_presses() const;
   /// Starts a frame of the user interface. The caller then draws until end_frame(). Each frame
   /// handles at most one press or release of a mouse button, at the position where it happened,
   /// even if frames are slow. With `navigates`, the arrow keys, Tab, Space and Enter operate the
@@ -65,7 +69,7 @@ class Screen {
   /// Whether a key is held. Keys are identified by the character that the keyboard layout prints.
   bool is_down(const Shortcut& key) const;
   /// Whether events are queued for later frames.
-  bool has_events() const { return !events_.empty() || !set_aside_.empty(); }
+  bool has_events() const { return !events_.empty(); }
   /// Number of presses and releases of keys and mouse buttons handled so far.
   int taken() const { return taken_; }
   /// With `held`, Alt counts as held from the next frame on, even if the key is not pressed.
@@ -108,8 +112,8 @@ class Screen {
 
   int printed_key(int key, int scancode) const;
   void pump_events();
-  bool waits(const Event& event) const;
-  void set_events_aside();
+  static bool is_left_press(const Event& event);
+  bool waits(const Event& event);
   void take_key(const Event& event);
   void queue_character(unsigned code);
 
@@ -126,8 +130,7 @@ class Screen {
   std::vector<KeyPress> keys_;
   std::map<int, int> held_;  ///< GLFW code of each held key -> the character printed on it
   std::deque<Event> events_;
-  std::deque<Event> set_aside_;  ///< until the dialog closes that has opened after them
-  bool holds_all_ = false;
+  bool holds_all_ = false, held_back_ = false;
   std::function<bool(Complex px)> press_waits_;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool mouse_down_[3] = {false, false, false};

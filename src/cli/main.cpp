@@ -180,15 +180,16 @@ void CommandLine::add_render(CLI::App& app) {
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
   sub->add_option("--view", render.view, "image, angle, area, stretch or checker")
       ->capture_default_str();
-  add_rectangle(sub, render.rectangle,
-                sub->add_flag("--crop", render.crop,
-                              "Crop to the picture's rectangle; by default nothing is cut off"));
+  auto* crop = sub->add_flag("--crop", render.crop,
+                             "Crop to the picture's rectangle; by default nothing is cut off");
+  add_rectangle(sub, render.rectangle, crop);
   add_moments(sub, render.moments,
               "; each becomes a numbered file, such as walk-0007.png for walk.png. All show the "
               "rectangle of the whole motion, or --rect");
   sub->add_flag("--missing", render.missing, "Draw only frames that have no file yet");
   sub->add_flag("--print-rect", render.print_rectangle,
-                "Draw nothing, but print the rectangle of the whole motion, for --rect");
+                "Draw nothing, but print the rectangle of the whole motion, for --rect")
+      ->excludes(crop);
   add_depth(sub, render.depth);
   add_force(sub, render.force);
 }

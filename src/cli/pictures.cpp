@@ -261,7 +261,7 @@ int checked_depth(const PictureFormat& format, const std::optional<int>& wanted)
 void run(const RenderCommand& command) {
   LoadedScene loaded = read_scene(command);
   const Moments& moments = command.moments;
-  if (moments.any()) require_keyframes(loaded.scene, command.scene);
+  if (moments.any() || command.print_rectangle) require_keyframes(loaded.scene, command.scene);
   if (command.print_rectangle) return print_motion_rectangle(loaded);
   if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
   const bool standard = is_standard(command.out);

@@ -12,14 +12,15 @@ const Method& method_of_first_pin(const Workspace& workspace) {
   return method.uses_pins ? method : usual_method(MethodUse::puppet);
 }
 
-void make_picture_cage(Workspace& workspace, const Method& method, std::function<bool(Cage)> then) {
+void make_picture_cage(Workspace& workspace, const Method& method, bool quietly,
+                       std::function<bool(Cage)> then) {
   const auto cage = std::make_shared<Cage>();
   const auto others = std::make_shared<std::vector<Box>>();
   const auto image = workspace.document.pictures().shared(workspace.document.scene().layer());
   AutoCageOptions options = workspace.tools.auto_cage;
   options.parts = method.allows_parts ? PartChoice::apart : PartChoice::joined;
   workspace.perform(
-      "Making the cage",
+      "Making the cage", quietly,
       [=](Job::Progress&) {
         *cage = auto_cage(*image, options);
         *others = parts_outside(*image, *cage);

@@ -170,6 +170,7 @@ bool Workspace::changes_closed_layer(const Scene& scene) const {
 }
 
 bool Workspace::enter(Scene scene, EditBase base, const Put& put) {
+  has_edits_ = true;
   shown.preview.reset();
   playback = {};
   if (changes_closed_layer(scene)) return require_open_layer();
@@ -211,6 +212,7 @@ void Workspace::leave_layer() {
 void Workspace::choose_layer(size_t number) {
   if (number == document.scene().edited) return;
   leave_layer();
+  has_edits_ = true;
   document.select_layer(number);
 }
 
@@ -276,6 +278,7 @@ std::vector<OnionSkin> Workspace::onion_skins() const {
 }
 
 bool Workspace::update_map(EvalOptions options) {
+  has_edits_ = false;
   const Deformation& own = shown.own();
   const std::optional<double> time = shown.time();
   if (released_ && (shown.preview || own != *released_)) released_.reset();
@@ -321,6 +324,7 @@ bool Workspace::commit_or_amend_layers(const std::string& label, Scene scene) {
 
 void Workspace::go_to(size_t entry) {
   if (entry == document.history().index()) return;
+  has_edits_ = true;
   shown.preview.reset();
   const Scene before = document.scene();
   const size_t from = document.history().index();
@@ -382,9 +386,9 @@ void Workspace::show_next_fold() {
   messages.complain("The picture folds over itself here" + number + ".", at);
 }
 
-void Workspace::perform(const std::string& title, const Job::Work& work,
+void Workspace::perform(const std::string& title, bool quietly, const Job::Work& work,
                         const std::function<void()>& then) {
-  if (run_in_background) return run_in_background(title, work, then);
+  if (run_in_background) return run_in_background(title, quietly, work, then);
   Job::Progress progress;
   work(progress);
   then();
@@ -410,6 +414,7 @@ void Workspace::prune_selection() {
 
 void Workspace::open(Document opened) {
   document = std::move(opened);
+  has_edits_ = true;
   maps.clear();
   selection.clear();
   copied_keys.clear();

@@ -109,12 +109,16 @@ struct Workspace {
   KeySelection copied_keys;    ///< set by Copy pose if keyframes are selected; otherwise empty
   Request request = Request::none;
   /// Runs a long task on another thread, then calls `then` on this thread. Set by the window.
-  std::function<void(const std::string& title, Job::Work work, std::function<void()> then)>
+  /// `quietly`: without a dialog; all input waits for the task, and Escape ends it.
+  std::function<void(const std::string& title, bool quietly, Job::Work work,
+                     std::function<void()> then)>
       run_in_background;
 
   /// The edited layer's map.
   LiveMap& map() { return maps.of(document.scene().layer().id); }
   const LiveMap& map() const { return maps.of(document.scene().layer().id); }
+  /// Whether the displayed map is the final one of what is edited.
+  bool knows_map() const { return !has_edits_ && !map().busy(); }
   /// Brings the maps up to date with `shown`. Returns whether any of them changed.
   bool update_map(EvalOptions options);
   /// The visible folds of the edited layer's map.
@@ -191,7 +195,8 @@ struct Workspace {
   std::vector<OnionSkin> onion_skins() const;
   /// Runs a long task, then calls `then`. The task runs in the background if the window has set
   /// run_in_background; otherwise it runs immediately, and its exceptions reach the caller.
-  void perform(const std::string& title, const Job::Work& work, const std::function<void()>& then);
+  void perform(const std::string& title, bool quietly, const Job::Work& work,
+               const std::function<void()>& then);
   /// Centers the canvas on a fold of the picture: first on the worst one, then on the others in
   /// turn.
   void show_next_fold();
@@ -216,6 +221,7 @@ struct Workspace {
   /// Whether a scene may enter the history. If not, a toast says why.
   bool accepts(const Scene& scene);
 
+  bool has_edits_ = false;                        ///< since the map was updated
   std::optional<Selection> mergeable_selection_;  ///< at the step that may be amended
   /// What a drag has just entered, until its final map is known.
   std::optional<Deformation> released_;

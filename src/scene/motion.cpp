@@ -101,8 +101,16 @@ void Motion::list_keys(const Deformation& deformation, bool linear_blend,
     }
     prepared_ = std::move(prepared);
     keys_.clear();
+    invalid_.clear();
   }
-  const std::vector<size_t> playing = playing_keys(deformation);
+  error_.reset();
+  std::vector<size_t> playing = playing_keys(deformation);
+  std::erase_if(playing, [&](size_t i) {
+    const Pose& pose = deformation.keyframes[i].pose;
+    const auto found = std::ranges::find(invalid_, pose, &std::pair<Pose, Error>::first);
+    if (found != invalid_.end() && !error_) error_ = found->second;
+    return found != invalid_.end();
+  });
   check_budget(
       &Budget::operators,
       static_cast<double>(playing.size() * prepared_->mesh->vertices.size() * sizeof(Complex)),
@@ -112,7 +120,6 @@ void Motion::list_keys(const Deformation& deformation, bool linear_blend,
     return frame.time == key.time && frame.ease == key.ease && frame.turns == key.turns &&
            frame.pose == key.pose;
   };
-  error_.reset();
   changed = changed || !std::ranges::equal(playing, keys_, is_listed);
   if (!changed) return;
   std::vector<Key> keys;
@@ -178,6 +185,7 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
       ++i;
     } catch (const Error& error) {
       if (!error_) error_ = error;
+      invalid_.emplace_back(keys_[i].pose, error);
       keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(i));
     }
   }

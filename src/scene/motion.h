@@ -32,9 +32,9 @@ class Motion {
   /// on request. The maps found until then are kept for the next call; nothing plays before it.
   void follow(const Deformation& deformation, bool linear_blend,
               std::shared_ptr<PreparedMap> prepared, const std::stop_token& stop = {});
-  /// The same, but computes only the maps that the one at a time depends on: those at the keys
-  /// around it, and at their neighbors where the motion is smooth. Maps at other times must not be
-  /// requested. Cost: at most four final poses.
+  /// The same, but computes only the maps on which the one at a time depends: those at the keys
+  /// around it, and at their neighbors where the motion is smooth. Throws Error if one of these
+  /// keys has no map. Maps at other times must not be requested. Cost: at most four final poses.
   void follow_at(double time, const Deformation& deformation, bool linear_blend,
                  std::shared_ptr<PreparedMap> prepared);
   void clear() { *this = Motion(); }
@@ -130,6 +130,7 @@ class Motion {
   bool linear_blend_ = false;
   bool stopped_ = false;  ///< whether the last call of follow() was stopped
   std::optional<Error> error_;
+  std::vector<std::pair<Pose, Error>> invalid_;  ///< poses without a map, and why
   std::map<std::pair<double, double>, Location> locations_;
   // A shape needs eight times as much memory as its map. Therefore only the shapes near the
   // requested time are cached.

@@ -5,6 +5,7 @@
 
 #include "core/cauchy/cauchy.h"
 #include "core/clock.h"
+#include "core/maps/argument.h"
 #include "core/maps/injectivity.h"
 
 namespace holomorph {
@@ -66,8 +67,8 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   if (frame.pose) report.pose_milliseconds = now_ms() - start;
   report.method = frame.deformation.method;
   // Maps that are blended triangle by triangle have no status of their own.
-  report.status =
-      frame.pose || map.status != SampledMap::Status::exact ? name_of(map.status) : "blended";
+  report.in_triangles = !frame.pose && map.status == SampledMap::Status::exact;
+  report.status = report.in_triangles ? "blended" : name_of(map.status);
   report.note = map.note;
   report.proved = map.extremes;
   report.iterations = map.iterations;
@@ -76,9 +77,22 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   report.mesh_vertices = static_cast<int>(mesh.vertices.size());
   report.mesh_triangles = static_cast<int>(mesh.triangles.size());
   report.prepare_milliseconds = prepared.milliseconds;
-  report.in_triangles = report.status == "blended";
   const MapReport linear = report_of_linear(mesh, map.f);
   report.map = report.in_triangles ? linear : report_of(mesh, map);
+  const auto point_map = frame.pose ? timed.point_map(frame) : nullptr;
+  if (point_map && !point_map->is_linear_in_triangles()) {
+    const Points& places = prepared.rest.derivative_samples;
+    const auto fz_at = [&](const Points& points) {
+      VectorXc values(static_cast<Index>(points.size()));
+      Index i = 0;
+      for (const PointMap::Value& value : values_on_all_cores(*point_map, points))
+        values[i++] = value.fz;
+      return values;
+    };
+    report.map.zeros.clear();
+    for (const Zero& zero : zeros_of(mesh, places.empty() ? mesh.vertices : places, map.fz, fz_at))
+      report.map.zeros.push_back(zero.position);
+  }
   report.least_in_triangles = linear.min_sigma;
   report.most_in_triangles = linear.max_sigma;
   report.folds_visibly = injectivity_of(mesh, map.f).folds();

@@ -21,7 +21,7 @@ struct SceneReport {
   double pin_rms = 0;              ///< root mean square distance of pins from their targets, pixels
   double pin_most = 0;             ///< the largest of these distances
   std::optional<Extremes> proved;  ///< if the map is certified
-  /// Measured at the mesh's vertices, or in its triangles where the map is linear in each of them.
+  /// Measured at the mesh's vertices, or in its triangles if the map is blended in these.
   MapReport map;
   bool in_triangles = false;
   double least_in_triangles = 1, most_in_triangles = 1;  ///< stretches of the drawn triangles

@@ -31,9 +31,9 @@ class TimedMap {
       : TimedMap(scene.deformation(), scene.animation.linear_blend) {}
 
   /// The frame at a time. Without a time or without keyframes, returns the frame in the
-  /// deformation's own pose. Throws Error if none of the keyframes plays, or if one has no map on
-  /// which the frame depends. Cost: the maps of up to four keyframes unless they are known, and a
-  /// sparse solve.
+  /// deformation's own pose. Throws Error if none of the keyframes plays, or if a keyframe on
+  /// which the frame depends has no map. Cost: the maps of up to four keyframes unless they are
+  /// known, and a sparse solve.
   TimedFrame frame(std::optional<double> time);
 
   const Mesh& mesh() const { return *prepared_->mesh; }

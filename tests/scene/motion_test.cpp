@@ -55,16 +55,16 @@ class Counting : public Deformer {
 }  // namespace
 
 TEST_CASE("Motion: one moment needs the maps of at most four keyframes") {
-  for (const unsigned seed : seeds_of("moments of a motion", {1, 2, 3})) {
+  for (const unsigned seed : seeds_of("moments of a motion", {1, 2})) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    const Deformation film = film_of("pins", 300, random);
+    const Deformation film = film_of("pins", 40, random);
     int count = 0;
     const std::shared_ptr<PreparedMap> prepared =
         prepared_map(film, Precision::single, MeshOptions{300});
     prepared->deformer = std::make_unique<Counting>(std::move(prepared->deformer), count);
-    for (int i = 0; i < 20; ++i) {
-      const double time = std::uniform_real_distribution<double>(-1, 151)(random);
+    for (int i = 0; i < 6; ++i) {
+      const double time = std::uniform_real_distribution<double>(-1, 21)(random);
       Motion one, all;
       count = 0;
       one.follow_at(time, film, false, prepared);
@@ -81,21 +81,21 @@ TEST_CASE("Motion: one moment needs the maps of at most four keyframes") {
     count = 0;
     Motion all;
     all.follow(film, false, prepared);
-    CHECK(count > 200);
+    CHECK(count > 25);
   }
 }
 
 TEST_CASE("Motion: moments have the same bits, whichever others were asked for before") {
-  for (const char* method : {"pins", "arap", "puppet", "sheet"})
+  for (const char* method : first_of<const char*>({"pins", "sheet", "puppet", "arap"}, 2))
     for (const unsigned seed : seeds_of("bits of moments", {1})) {
       CAPTURE(method, seed);
       std::mt19937 random(seed);
-      const Deformation film = film_of(method, 6, random);
+      const Deformation film = film_of(method, 5, random);
       std::vector<double> times;
-      for (int i = 0; i < 5; ++i)
-        times.push_back(std::uniform_real_distribution<double>(0, 2.6)(random));
+      for (int i = 0; i < few_or_many(1, 5); ++i)
+        times.push_back(std::uniform_real_distribution<double>(0, 2)(random));
       TimedMap in_order(film);
-      for (double time = 0; time < 2.6; time += 0.2) in_order.frame(time);
+      for (double time = 0; time < 2; time += 0.4) in_order.frame(time);
       for (const double time : times) {
         CAPTURE(time);
         TimedMap alone(film);

@@ -1,4 +1,4 @@
-// Comparisons with NaN are false, so it counts as too far away.
+// A point whose coordinates are NaN counts as too far away, because comparisons with NaN are false.
 #include "app/canvas/mark_list.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What marks are drawn into: ImGui's draw list, except for places that are too far away for it.
+// Draws marks, but skips points that are too far away for ImGui.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ namespace holomorph {
 
 /// Draws shapes in window px. ImGui may crash where a coordinate is infinite, and extreme maps take
 /// handles anywhere. Therefore shapes at places that are not finite or farther away than 1e7 px are
-/// left out, and so are the parts of lines that touch such places. Lines that nobody sees are left
-/// out, too. Widths and radii are in px.
+/// left out, and so are the parts of lines that touch such places. Single lines outside of the clip
+/// rectangle are left out, too. Widths and radii are in px.
 class MarkList {
  public:
   explicit MarkList(ImDrawList& list) : list_(list) {}

@@ -31,7 +31,7 @@ void fit_to_outline(Workspace& workspace, const std::string& label, Flattening h
   surface.flattening = how;
   const auto outline = std::make_shared<Points>();
   workspace.run_in_background(
-      "Flattening " + Path(surface.file).filename().string(),
+      "Flattening " + Path(surface.file).filename().string(), false,
       [outline, surface, how, onto = box_of(deformation.outline)](Job::Progress&) {
         *outline = outline_of_file(surface.file, 0, onto, how);
       },

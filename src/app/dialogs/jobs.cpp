@@ -8,13 +8,12 @@
 
 #include "app/look/controls.h"
 #include "app/look/surfaces.h"
-#include "core/clock.h"
 
 namespace holomorph {
 namespace {
 
 /// Jobs that end within this time, in ms, show no dialog. This avoids flicker.
-constexpr double kShortMs = 60, kQuietMs = 2000;
+constexpr double kShortMs = 60;
 
 }  // namespace
 
@@ -22,19 +21,20 @@ std::string Jobs::run(const std::string& title, Job::Work work, std::function<vo
   if (job_) abandon();
   job_ = std::make_unique<Job>(title, std::move(work), wake_);
   then_ = std::move(then);
-  quiet_until_ms_ = 0;
+  quiet_ = false;
   return job_->ended_within(kShortMs) ? finish() : "";
 }
 
 std::string Jobs::run_quietly(const std::string& title, Job::Work work,
                               std::function<void()> then) {
   std::string error = run(title, std::move(work), std::move(then));
-  quiet_until_ms_ = now_ms() + kQuietMs;
+  quiet_ = true;
   return error;
 }
 
-bool Jobs::quiet() const {
-  return job_ && now_ms() < quiet_until_ms_;
+void Jobs::cancel() {
+  abandon();
+  workspace_.messages.say("Canceled.");
 }
 
 void Jobs::abandon() {
@@ -86,9 +86,7 @@ void Jobs::draw() {
   const bool cancel =
       button("Cancel", ButtonKind::secondary, px(96)) || dialog_key() == DialogKey::escape;
   if (cancel) {
-    abandon();
-    canceled_ = true;
-    workspace_.messages.say("Canceled.");
+    this->cancel();
   } else if (job_->ended()) {
     workspace_.messages.complain(finish());
   }

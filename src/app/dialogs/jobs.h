@@ -1,8 +1,6 @@
 // Runs long work on another thread. A dialog shows its progress and can cancel it.
 #pragma once
 
-#include <utility>
-
 #include "edit/workspace.h"
 #include "system/job.h"
 
@@ -20,13 +18,15 @@ class Jobs {
   /// avoids flicker. Errors of longer work are shown as toasts. Cancels a job that is already
   /// running.
   std::string run(const std::string& title, Job::Work work, std::function<void()> then);
-  /// The same for work that the user did not ask for by name, such as a cage for the first pin. Its
-  /// dialog comes only after two seconds. Until then, quiet() is true, and input should wait.
+  /// The same without a dialog, for work that a gesture on the canvas needs. Until it has ended,
+  /// quiet() is true, and input should wait.
   std::string run_quietly(const std::string& title, Job::Work work, std::function<void()> then);
   bool running() const { return job_ != nullptr; }
-  bool quiet() const;
-  /// Whether the user has canceled a job since the last call.
-  bool take_cancel() { return std::exchange(canceled_, false); }
+  bool quiet() const { return job_ && quiet_; }
+  /// The title of the running job.
+  const std::string& title() const { return job_->title(); }
+  /// Ends the running job.
+  void cancel();
   /// Draws the running job's dialog, and calls `then` once the work has ended. `then` may start
   /// another job.
   void draw();
@@ -39,8 +39,7 @@ class Jobs {
   std::function<void()> wake_;
   std::unique_ptr<Job> job_;
   std::function<void()> then_;
-  bool canceled_ = false;
-  double quiet_until_ms_ = 0;                    ///< on the clock of now_ms()
+  bool quiet_ = false;
   std::vector<std::unique_ptr<Job>> abandoned_;  ///< canceled, but not ended yet
 };
 

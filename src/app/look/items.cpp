@@ -69,6 +69,8 @@ void tooltip(const std::string& text) {
 }
 
 void tooltip_of(const Action& action) {
+  const bool disabled =
+      (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
   if (!begin_tooltip()) return;
   ImGui::TextUnformatted(action.label.c_str());
   if (!action.keys.empty()) {
@@ -79,8 +81,6 @@ void tooltip_of(const Action& action) {
         draw_key_cap(list, ImGui::GetCursorScreenPos(), ImGui::GetTextLineHeight(), key);
     ImGui::Dummy({width, ImGui::GetTextLineHeight()});
   }
-  const bool disabled =
-      (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
   for (const char* text : {action.hint, disabled ? action.needs : ""}) {
     if (!*text) continue;
     const ScopedFont small(Type::caption);

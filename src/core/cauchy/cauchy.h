@@ -22,13 +22,12 @@ namespace holomorph {
 /// Identities inside the cage: with b = controls_of(cage), order 0: rows sum to 1 and C b = z;
 /// order 1: rows sum to 0 and D b = 1. Outside the cage, all of these sums are 0. On the boundary,
 /// or within rounding error of it (see contact.h), the result is the limit from inside. At a
-/// vertex, derivatives of the coordinates of nearby control points have no limit and are NaN: of
-/// the vertex itself, and of the next `order` control points on both of its segments. The others
-/// are limits, to 10 digits. The cage may have either orientation, and it may mix straight and
-/// curved segments. Scaling all inputs by 2^k scales the results exactly. The relative error per
-/// straight edge is below 1e-13 for degrees up to 8 and orders up to 3. Throws Error if the order
-/// is negative. Cost: one complex logarithm per point and root; see cauchy_array.h for the fast
-/// path.
+/// vertex, the derivatives of some coordinates have no limit and are NaN: those of the vertex
+/// itself and of the next `order` control points on both of its segments. The others are limits, to
+/// about 10 digits. The cage may have either orientation, and it may mix straight and curved
+/// segments. Scaling all inputs by 2^k scales the results exactly. The relative error per straight
+/// edge is below 1e-13 for degrees up to 8 and orders up to 3. Throws Error if the order is
+/// negative. Cost: one complex logarithm per point and root; see cauchy_array.h for the fast path.
 MatrixXc cauchy_coordinates(const Cage& cage, std::span<const Complex> points, int order = 0);
 
 /// The coordinates at boundary points given by segment and parameter, as limits from inside.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "core/error.h"
@@ -45,6 +46,100 @@ std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values) {
         edge_crossing(values, a, b) + edge_crossing(values, b, c) + edge_crossing(values, c, a);
     if (winding != 0)
       zeros.push_back({(mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0, winding});
+  }
+  return zeros;
+}
+
+namespace {
+
+/// Whether the argument may change by a full turn or more between two values.
+bool is_uncertain(Complex from, Complex to) {
+  constexpr double kCertain = 0.5, kRatio = 4;
+  const Complex ratio = to / from;
+  return !(std::abs(std::arg(ratio)) <= kCertain) || !(std::norm(ratio) < kRatio * kRatio) ||
+         !(std::norm(ratio) > 1 / (kRatio * kRatio));
+}
+
+}  // namespace
+
+VectorXd argument_changes(const std::vector<Step>& steps, const FunctionValues& at) {
+  constexpr int kRounds = 20;
+  struct Part {
+    Index step;
+    Step of;
+  };
+  VectorXd changes = VectorXd::Zero(static_cast<Index>(steps.size()));
+  std::vector<Part> parts;
+  for (const Step& step : steps) parts.push_back({static_cast<Index>(parts.size()), step});
+  for (int round = 0; !parts.empty(); ++round) {
+    std::vector<Part> unsure;
+    Points middles;
+    for (const Part& part : parts) {
+      if (round < kRounds && is_uncertain(part.of.value_from, part.of.value_to)) {
+        unsure.push_back(part);
+        middles.push_back(0.5 * (part.of.from + part.of.to));
+      } else {
+        changes[part.step] += std::arg(part.of.value_to / part.of.value_from);
+      }
+    }
+    parts.clear();
+    if (middles.empty()) break;
+    const VectorXc between = at(middles);
+    for (size_t i = 0; i < unsure.size(); ++i) {
+      const auto& [step, of] = unsure[i];
+      const Complex value = between[static_cast<Index>(i)];
+      parts.push_back({step, {of.from, middles[i], of.value_from, value}});
+      parts.push_back({step, {middles[i], of.to, value, of.value_to}});
+    }
+  }
+  return changes;
+}
+
+// Next to a zero that is close to the boundary, the argument changes by half a turn along a short
+// piece of an edge, which other changes may hide. Edges of the boundary therefore start in pieces.
+std::vector<Zero> zeros_of(const Mesh& mesh, const Points& points, const VectorXc& values,
+                           const FunctionValues& at) {
+  constexpr int kPieces = 8;
+  std::map<std::pair<int, int>, int> uses;
+  for (const Triangle& t : mesh.triangles)
+    for (size_t a = 0; a < 3; ++a) ++uses[std::minmax(t[a], t[(a + 1) % 3])];
+  Points inner;
+  const auto point_on = [&](const std::pair<int, int>& edge, int k) {
+    const Complex from = points[static_cast<size_t>(edge.first)],
+                  to = points[static_cast<size_t>(edge.second)];
+    return from + (to - from) * (1.0 * k / kPieces);
+  };
+  for (const auto& [edge, count] : uses)
+    for (int k = 1; count == 1 && k < kPieces; ++k) inner.push_back(point_on(edge, k));
+  const VectorXc between = inner.empty() ? VectorXc() : at(inner);
+  std::vector<Step> steps;
+  std::map<std::pair<int, int>, std::pair<Index, Index>> steps_of;  // first and number
+  Index next = 0;
+  for (const auto& [edge, count] : uses) {
+    const int pieces = count == 1 ? kPieces : 1;
+    steps_of[edge] = {static_cast<Index>(steps.size()), pieces};
+    Complex from = points[static_cast<size_t>(edge.first)], value = values[edge.first];
+    for (int k = 1; k < pieces; ++k) {
+      const Complex to = point_on(edge, k), there = between[next++];
+      steps.push_back({from, to, value, there});
+      from = to;
+      value = there;
+    }
+    steps.push_back({from, points[static_cast<size_t>(edge.second)], value, values[edge.second]});
+  }
+  const VectorXd changes = argument_changes(steps, at);
+  std::vector<Zero> zeros;
+  for (const Triangle& t : mesh.triangles) {
+    double turn = 0;
+    for (size_t a = 0; a < 3; ++a) {
+      const int from = t[a], to = t[(a + 1) % 3];
+      const auto [first, count] = steps_of.at(std::minmax(from, to));
+      const double change = changes.segment(first, count).sum();
+      turn += from < to ? change : -change;
+    }
+    if (const int winding = static_cast<int>(std::lround(turn / (2 * kPi))); winding != 0)
+      zeros.push_back(
+          {(mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0, winding});
   }
   return zeros;
 }

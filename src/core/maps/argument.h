@@ -2,6 +2,8 @@
 // alg. 4).
 #pragma once
 
+#include <functional>
+
 #include "core/mesh/mesh.h"
 
 namespace holomorph {
@@ -17,6 +19,25 @@ struct Zero {
 /// exactly one of the edge's triangles, because both triangles count the edge in the same way.
 /// Cost: linear.
 std::vector<Zero> zeros_of(const Mesh& mesh, const VectorXc& values);
+
+/// The values of a function at points.
+using FunctionValues = std::function<VectorXc(const Points&)>;
+
+/// A straight step between two points, and the values of a function there.
+struct Step {
+  Complex from, to;
+  Complex value_from, value_to;
+};
+/// How much the argument of a function changes along each step, in radians. `at` supplies more
+/// values where it changes by more than half a radian, or the modulus by more than a factor of
+/// four. Cost: mostly that of `at`, which is called up to twenty times.
+VectorXd argument_changes(const std::vector<Step>& steps, const FunctionValues& at);
+
+/// Zeros of a function that `at` gives at any point. `points` are positions of the mesh's vertices,
+/// for example a little inside the boundary, and `values` the function's values there. Unlike
+/// zeros_of(mesh, values), finds what the values at the vertices alone do not tell.
+std::vector<Zero> zeros_of(const Mesh& mesh, const Points& points, const VectorXc& values,
+                           const FunctionValues& at);
 
 /// The winding number around 0 of the values along a closed loop.
 int winding_around_zero(const VectorXc& values);

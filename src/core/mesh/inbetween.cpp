@@ -177,12 +177,10 @@ Inbetween::Shape Inbetween::shape_of(const VectorXc& f, int turns) const {
   return turned(std::move(shape), turns);
 }
 
-/// The areas of the triangles that neither shape flips, and 0 for the others; if both flip all of
-/// them, all areas.
+/// The areas of the triangles that neither shape flips, and 0 for the others.
 VectorXd Inbetween::areas_of_upright(const Shape& a, const Shape& b) const {
-  const VectorXd upright = (a.nu.array().abs() < 1 && b.nu.array().abs() < 1)
-                               .select(areas_, VectorXd::Zero(areas_.size()));
-  return upright.sum() > 0 ? upright : areas_;
+  return (a.nu.array().abs() < 1 && b.nu.array().abs() < 1)
+      .select(areas_, VectorXd::Zero(areas_.size()));
 }
 
 Inbetween::Shape Inbetween::shape_after(const Shape& before, Shape shape,
@@ -191,12 +189,15 @@ Inbetween::Shape Inbetween::shape_after(const Shape& before, Shape shape,
   // The rotation of the triangles from `first` on in the order.
   const auto rotation = [&](size_t first, size_t end) {
     double sum = 0, area = 0;
-    for (size_t i = first; i < end; ++i) {
-      const int t = order_[i].triangle;
-      sum += areas[t] * (shape.logarithm[t] - before.logarithm[t]).imag();
-      area += areas[t];
+    for (const VectorXd* weights : {&areas, &areas_}) {
+      for (size_t i = first; i < end; ++i) {
+        const int t = order_[i].triangle;
+        sum += (*weights)[t] * (shape.logarithm[t] - before.logarithm[t]).imag();
+        area += (*weights)[t];
+      }
+      if (area > 0) break;  // otherwise all of them are flipped
     }
-    return area > 0 ? sum / area : 0.0;
+    return sum / area;
   };
   const auto end_of = [&](size_t part) {
     return part + 1 < part_starts_.size() ? part_starts_[part + 1] : order_.size();

@@ -22,8 +22,8 @@
 namespace holomorph {
 namespace {
 
-/// Extremes of a map that is also proved to be within bounds. They are found only to within 1 %, so
-/// that the bounds may be tighter.
+/// Extremes of a map that is proved to be within bounds. They are found only to within 1 %, so the
+/// bounds may be tighter.
 Extremes within(const Bounds& bounds, Extremes extremes) {
   return {std::min(extremes.shear, bounds.k), std::max(extremes.smallest, bounds.sigma),
           std::min(extremes.largest, bounds.Sigma)};
@@ -336,7 +336,7 @@ class BoundedDeformer final : public Deformer {
     const std::optional<Complex> followed = reference_->pin_image(which);
     const bool misses = followed && std::abs(*followed - pose.pins[which].position) >= visible;
     if (misses) return text + ", as in the followed map";
-    return text + (space_ == "psi" ? ", for want of pin weight"
+    return text + (space_ == "psi" ? ", because the pin weight is low"
                                    : std::string(", because ") +
                                          (space_ == "nu" ? "shape" : "size") + " is preferred");
   }

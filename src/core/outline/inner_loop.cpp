@@ -1,4 +1,4 @@
-// Steps along the loop are halved until the change of the argument along each step is unambiguous.
+// The miter of a corner is at the same distance from both sides.
 #include "core/outline/inner_loop.h"
 
 #include <cmath>
@@ -7,9 +7,6 @@
 
 namespace holomorph {
 namespace {
-
-constexpr double kCertain = 0.5;  ///< radians between neighbors
-constexpr int kRounds = 20;
 
 Points offset_inwards(const Points& polygon, double distance) {
   constexpr double kArcStep = 0.3;
@@ -43,19 +40,6 @@ Points in_steps(const Points& loop, double longest) {
   return points;
 }
 
-/// Whether the argument may change by a full turn or more between the two values.
-bool is_uncertain(Complex from, Complex to) {
-  constexpr double kRatio = 4;
-  const Complex ratio = to / from;
-  return !(std::abs(std::arg(ratio)) <= kCertain) || !(std::norm(ratio) < kRatio * kRatio) ||
-         !(std::norm(ratio) > 1 / (kRatio * kRatio));
-}
-
-struct EdgeSample {
-  Complex from, to;  ///< positions
-  Complex value_from, value_to;
-};
-
 }  // namespace
 
 Points inner_loop(const Points& polygon, double distance) {
@@ -69,36 +53,14 @@ Points inner_loop(const Points& polygon, double distance) {
   return in_steps(loop, longest);
 }
 
-int zeros_inside(const Points& loop, const VectorXc& values,
-                 const std::function<VectorXc(const Points&)>& at) {
-  std::vector<EdgeSample> steps;
+int zeros_inside(const Points& loop, const VectorXc& values, const FunctionValues& at) {
+  std::vector<Step> steps;
   for (size_t i = 0; i < loop.size(); ++i) {
     const size_t next = (i + 1) % loop.size();
     steps.push_back(
         {loop[i], loop[next], values[static_cast<Index>(i)], values[static_cast<Index>(next)]});
   }
-  double turned = 0;
-  for (int round = 0; !steps.empty(); ++round) {
-    std::vector<EdgeSample> unsure;
-    Points middles;
-    for (const EdgeSample& step : steps) {
-      if (round < kRounds && is_uncertain(step.value_from, step.value_to)) {
-        unsure.push_back(step);
-        middles.push_back(0.5 * (step.from + step.to));
-      } else {
-        turned += std::arg(step.value_to / step.value_from);
-      }
-    }
-    steps.clear();
-    if (middles.empty()) break;
-    const VectorXc between = at(middles);
-    for (size_t i = 0; i < unsure.size(); ++i) {
-      const Complex middle = middles[i], value = between[static_cast<Index>(i)];
-      steps.push_back({unsure[i].from, middle, unsure[i].value_from, value});
-      steps.push_back({middle, unsure[i].to, value, unsure[i].value_to});
-    }
-  }
-  return static_cast<int>(std::lround(turned / (2 * kPi)));
+  return static_cast<int>(std::lround(argument_changes(steps, at).sum() / (2 * kPi)));
 }
 
 }  // namespace holomorph

@@ -1,9 +1,7 @@
 // Loops just inside a polygon, and the zeros of a holomorphic function inside a loop.
 #pragma once
 
-#include <functional>
-
-#include "core/types.h"
+#include "core/maps/argument.h"
 
 namespace holomorph {
 
@@ -14,11 +12,8 @@ namespace holomorph {
 Points inner_loop(const Points& polygon, double distance);
 
 /// The number of zeros of a function inside a loop, by the argument principle: its winding number
-/// around 0 along the loop. `values` are the function's values at the loop's vertices. `at`
-/// supplies more values between neighbors whose arguments differ by more than half a radian or
-/// whose moduli differ by more than a factor of four. Cost: mostly that of `at`, which is called up
-/// to twenty times.
-int zeros_inside(const Points& loop, const VectorXc& values,
-                 const std::function<VectorXc(const Points&)>& at);
+/// around 0 along the loop. `values` are the function's values at the loop's vertices, and `at`
+/// supplies more of them (see argument_changes).
+int zeros_inside(const Points& loop, const VectorXc& values, const FunctionValues& at);
 
 }  // namespace holomorph

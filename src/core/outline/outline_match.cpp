@@ -108,9 +108,10 @@ void OutlineFit::solve(const Points& pinned) {
   if (!start_ || settings_.upright == 0) return;
   // Keeping the picture upright must not make it fold.
   const int zeros = misses().zeros;
-  if (zeros > 0) solve_from(0);
-  if (misses().zeros < zeros) return start_->use_upright(settings_.upright);
-  if (zeros > 0) solve_from(settings_.upright);
+  if (zeros == 0) return;
+  solve_from(0);
+  start_->use_upright(settings_.upright);
+  if (misses().zeros >= zeros) solve_from(settings_.upright);
 }
 
 /// Solves from the best start with this weight of the picture's rotation. Without pins, none keeps

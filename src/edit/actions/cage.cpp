@@ -23,7 +23,7 @@ bool has_cage_selection(const Workspace& w) {
 }
 
 void cage_from_picture(Workspace& w) {
-  make_picture_cage(w, method_named(w.shown.own().method), [&w](Cage cage) {
+  make_picture_cage(w, method_named(w.shown.own().method), false, [&w](Cage cage) {
     if (!w.commit("Cage from picture", with_cage(w.shown.own(), std::move(cage)),
                   EditBase::document))
       return false;

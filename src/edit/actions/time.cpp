@@ -41,17 +41,19 @@ std::string for_keys(const std::string& what, const KeySelection& keys) {
 void delete_keys(Workspace& w, const KeySelection& keys) {
   const Scene& before = w.document.scene();
   Scene after = without_keys(before, keys);
+  const bool timed = w.shown.time_of_layers().has_value();
   for (size_t i = 0; i < after.layers.size(); ++i) {
     const Deformation& own = before.layers[i]->deformation;
-    if (!after.layers[i]->deformation.keyframes.empty() || own.keyframes.empty()) continue;
+    if (!timed || own.keyframes.empty() || !after.layers[i]->deformation.keyframes.empty() ||
+        playing_keys(own).empty())
+      continue;
     const bool edited = i == before.edited;
-    if (edited && !w.require_pose()) return;
-    const std::optional<Deformation>& timed =
-        std::as_const(w.maps).of(before.layers[i]->id).timed();
-    const Deformation& displayed = edited ? w.shown.base() : timed ? *timed : own;
-    if (!fits(own, whole_pose_of(displayed))) continue;
+    const LiveMap& map = std::as_const(w.maps).of(before.layers[i]->id);
+    if (edited ? !w.shown.knows_pose() : map.busy() || !map.timed())
+      return w.messages.say("The picture at this time is being prepared. Try again in a moment.");
     Layer layer = *after.layers[i];
-    layer.deformation = posed_as(std::move(layer.deformation), whole_pose_of(displayed));
+    layer.deformation = posed_as(std::move(layer.deformation),
+                                 whole_pose_of(edited ? w.shown.base() : *map.timed()));
     after = with_layer_at(std::move(after), i, std::move(layer));
   }
   w.commit_layers(for_keys("Delete", keys), std::move(after));

@@ -17,7 +17,7 @@ class BrushTool final : public Tool {
   ToolId id() const override { return ToolId::brush; }
 
   bool waits(const Input&, const Workspace& workspace) const override {
-    return workspace.map().busy();
+    return !workspace.knows_map();
   }
 
   void input(const Input& input, Workspace& workspace) override {

@@ -15,9 +15,9 @@ class PinTool final : public HandleTool {
  public:
   ToolId id() const override { return ToolId::pin; }
 
-  /// The place of a new pin is known only when the picture is where the user sees it.
+  /// A new pin needs the map of the pose that the user sees.
   bool waits(const Input& input, const Workspace& workspace) const override {
-    if (!workspace.map().busy() || handle_at(workspace, input.px)) return false;
+    if (workspace.knows_map() || handle_at(workspace, input.px)) return false;
     PinRing ring = ring_;
     ring.hover(input, workspace);
     HoldCircle circle = circle_;
@@ -100,7 +100,7 @@ class PinTool final : public HandleTool {
       return workspace.messages.say(needs_a_cage(workspace, "Pins need a cage"));
     coming_ = input.px;
     const Method& method = method_of_first_pin(workspace);
-    make_picture_cage(workspace, method, [this, input, &workspace](Cage cage) {
+    make_picture_cage(workspace, method, true, [this, input, &workspace](Cage cage) {
       coming_.reset();
       if (!encloses(outline_of(cage), input.position)) {
         workspace.messages.say("There is nothing here. Click the picture to set a pin.");

@@ -19,7 +19,7 @@ class StrokeTool final : public HandleTool {
   ToolId id() const override { return ToolId::stroke; }
 
   bool waits(const Input& input, const Workspace& workspace) const override {
-    return workspace.map().busy() && !handle_at(workspace, input.px);
+    return !workspace.knows_map() && !handle_at(workspace, input.px);
   }
 
   void input(const Input& input, Workspace& workspace) override {

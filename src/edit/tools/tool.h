@@ -39,7 +39,7 @@ struct ToolOverlay {
   std::optional<std::vector<BrushDab>> dabs;
   std::optional<Complex> brush;  ///< the position of the brush
   std::vector<TargetMark> targets;
-  Points coming_pins;  ///< in window px: pins that will be set as soon as the map is known
+  Points coming_pins;  ///< in window px: where pins will be set when the map is known
 };
 
 inline constexpr double kDragThresholdPx = 3;
@@ -51,8 +51,8 @@ class Tool {
   virtual ~Tool() = default;
   virtual ToolId id() const = 0;
   virtual void input(const Input& input, Workspace& workspace) = 0;
-  /// Whether a press must wait until the worker has the final map of what is displayed. If so, it
-  /// arrives later, and so does all input after it.
+  /// Whether a press must wait until Workspace::knows_map. If so, it arrives later, and so does all
+  /// input after it.
   virtual bool waits(const Input&, const Workspace&) const { return false; }
   /// Handles a key that the tool itself uses (Enter, Backspace, Escape). Returns false for all
   /// other keys, so that actions can use them.

@@ -3,10 +3,13 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <random>
 
+#include "core/maps/argument.h"
 #include "core/maps/injectivity.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 namespace holomorph::distortion_test {
@@ -103,6 +106,40 @@ TEST_CASE("Injectivity: the least stretch of an affine map is |a| - |b|, with it
   REQUIRE_FALSE(found.folds_at.empty());
   CHECK(std::min(std::abs(found.folds_at[0] - Complex(0, 2 * 216)),
                  std::abs(found.folds_at[0] + Complex(0, 2 * 216))) < 120);
+}
+
+TEST_CASE("Zeros of a function that is known everywhere are those that it has") {
+  const Cage cage = polygon_cage(Points{{0, 0}, {100, 0}, {100, 60}, {0, 60}});
+  const Mesh mesh = domain_mesh(cage, {200});
+  for (const unsigned seed : seeds_of("zeros of functions", {1, 2, 3, 4})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    // Two zeros inside, one close to the boundary, and one just outside of it. Factors that turn
+    // fast make triangles look as if they had zeros.
+    const Complex near_side(30 + 30 * random_complex(random).real(), 0.05);
+    const Points zeros{Complex(50, 30) + 20.0 * random_complex(random),
+                       Complex(50, 30) + 20.0 * random_complex(random), near_side,
+                       Complex(near_side.real() + 30, -0.05)};
+    const auto at = [&](const Points& points) {
+      VectorXc values(static_cast<Index>(points.size()));
+      for (Index i = 0; i < values.size(); ++i) {
+        const Complex z = points[static_cast<size_t>(i)];
+        values[i] = std::exp(0.4 * kI * z);
+        for (const Complex& zero : zeros) values[i] *= z - zero;
+      }
+      return values;
+    };
+    const std::vector<Zero> found = zeros_of(mesh, mesh.vertices, at(mesh.vertices), at);
+    int count = 0;
+    for (const Zero& zero : found) count += zero.multiplicity;
+    REQUIRE(count == 3);
+    for (size_t k = 0; k < 3; ++k) {
+      double nearest = INFINITY;
+      for (const Zero& zero : found)
+        nearest = std::min(nearest, std::abs(zero.position - zeros[k]));
+      CHECK(nearest < 15);
+    }
+  }
 }
 
 TEST_CASE("Injectivity: visible loops are folds, loops too small to be seen are not") {

@@ -1,8 +1,12 @@
 // In-between maps: shapes are kept, bounds hold, and rotations go in the expected direction.
 #include "core/mesh/inbetween.h"
+
+#include <random>
+
 #include "core/maps/distortion.h"
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
+#include "support/seeds.h"
 #include "support/shapes.h"
 
 namespace holomorph::inbetween_test {
@@ -116,6 +120,34 @@ TEST_CASE("In-betweens: the expected turn decides the number of whole turns") {
   const VectorXc exact = rolled(*mesh, 2.5 * kPi);
   const VectorXc off = (f.array() - f.mean()) - (exact.array() - exact.mean());
   CHECK(off.cwiseAbs().maxCoeff() <= 12);
+}
+
+TEST_CASE("In-betweens: rotations go around triangles that are flipped") {
+  const auto mesh = bar_mesh(1000);
+  const Inbetween between(mesh);
+  for (const unsigned seed : seeds_of("flipped triangles", {1, 2, 3, 4})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    const double angle = 2 * random_complex(random).real();
+    VectorXc from = rolled(*mesh, 0), to = rolled(*mesh, 0.3);
+    for (Complex& z : to) z *= std::polar(1.0, angle);
+    // Some vertices go far astray in each map, and so flip triangles around them.
+    for (VectorXc* f : {&from, &to})
+      for (Complex& z : *f)
+        if (random() % 25 == 0) z += 60.0 * random_complex(random);
+    const Inbetween::Shape a = between.shape_of(from),
+                           b = between.shape_after(a, between.shape_of(to));
+    double astray = 0, upright = 0;
+    for (Index t = 0; t < a.nu.size(); ++t) {
+      if (std::abs(a.nu[t]) >= 1 || std::abs(b.nu[t]) >= 1) continue;
+      const double area = area_of(*mesh, mesh->triangles[static_cast<size_t>(t)]),
+                   turn = (b.logarithm[t] - a.logarithm[t]).imag();
+      upright += area;
+      if (std::abs(turn - angle) > kPi) astray += area;
+    }
+    CHECK(upright > 0.2 * 600 * 100);
+    CHECK(astray < 0.05 * upright);
+  }
 }
 
 TEST_CASE("In-betweens: bounded distortion stays bounded") {

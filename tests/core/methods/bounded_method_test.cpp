@@ -1,5 +1,7 @@
 // Method `bounded`: drags, shapes of cages, all references, and degenerate input.
 
+#include <random>
+
 #include "core/cauchy/boundary_basis.h"
 #include "core/cauchy/cauchy.h"
 #include "core/error.h"
@@ -282,6 +284,33 @@ TEST_CASE("Bounded method: a cage with two zeros of f' inside is certified") {
     CHECK(map.status == SampledMap::Status::certified);
     CHECK(setting.flipped_triangle_count(map) == 0);
     check_bounds_inside(setting, bounds);
+  }
+}
+
+TEST_CASE("Bounded method: at rest, it is the identity to the last bit, whatever it follows") {
+  for (const ParameterSpec& spec : method_named("bounded").parameters)
+    for (size_t i = 0; spec.key == "reference" && i < spec.options.size(); ++i) {
+      CAPTURE(spec.options[i].id);
+      Setting setting(polygon_cage(shapes::star(7, 0.3, 5)), {{5, 8}, {-30, 20}},
+                      {{"reference", static_cast<double>(i)}}, 300);
+      CHECK(setting.map().f ==
+            Eigen::Map<const VectorXc>(setting.rest.samples.data(),
+                                       static_cast<Index>(setting.rest.samples.size())));
+    }
+}
+
+TEST_CASE("Bounded method: proved extremes lie within the bounds that were asked for") {
+  for (const unsigned seed : seeds_of("bounds asked for", {1, 2, 3})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    Setting setting(polygon_cage(shapes::star(7, 0.3, seed)), {{5, 8}, {-30, 20}, {20, -35}},
+                    {{"k", 0.3}, {"sigma", 0.4}, {"Sigma", 2.5}}, 300);
+    for (PosePin& pin : setting.pose.pins) pin.position += 60.0 * random_complex(random);
+    const SampledMap map = setting.map();
+    if (map.status != SampledMap::Status::certified) continue;
+    CHECK(map.extremes.value().shear <= 0.3);
+    CHECK(map.extremes.value().smallest >= 0.4);
+    CHECK(map.extremes.value().largest <= 2.5);
   }
 }
 

@@ -316,7 +316,7 @@ TEST_CASE("Inner loop: along straight runs of vertices, it does not cross itself
                  loop = inner_loop(polygon, 0.2);
     CAPTURE(seed);
     CHECK_FALSE(self_crossing(loop));
-    // Most of its vertices lie at the distance that was asked for.
+    // It keeps the distance that was asked for.
     int near = 0;
     for (const Complex& z : loop) near += Polyline(polygon, true).nearest(z).distance < 0.19;
     CHECK(near == 0);
