@@ -105,8 +105,8 @@ void OutlineFit::build(const Correspondence& start) {
 void OutlineFit::solve(const Points& pinned) {
   pinned_ = in(frame_, pinned);
   solve_from(std::nullopt);
-  if (!start_ || settings_.upright == 0) return;
-  // Keeping the picture upright must not make it fold.
+  // Keeping the picture upright must not make it fold. Pins decide themselves how it is rotated.
+  if (!start_ || settings_.upright == 0 || !pins_.empty()) return;
   const int zeros = misses().zeros;
   if (zeros == 0) return;
   solve_from(0);

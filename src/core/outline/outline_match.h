@@ -72,9 +72,9 @@ class OutlineFit {
 
   /// Solves from scratch for these pin targets. If the result misses the outline by more than 0.8 %
   /// of its diameter, or if f' has zeros, the conformal map itself is fitted instead, with as many
-  /// vertices as necessary. If f' still has zeros, this is tried without keeping the picture
-  /// upright. Cost for 200 vertices: 5 ms per iteration, plus 60 ms for a basis if
-  /// there are pins. Fitting the conformal map takes 0.1 to 1 s.
+  /// vertices as necessary. If f' still has zeros and there are no pins, this is tried
+  /// without keeping the picture upright. Cost for 200 vertices: 5 ms per iteration, plus 60 ms for
+  /// a basis if there are pins. Fitting the conformal map takes 0.1 to 1 s.
   void solve(const Points& pinned);
   /// What a drag continues from.
   struct Checkpoint {
