@@ -38,9 +38,8 @@ Editor::Editor(Screen& screen, Preferences preferences, const EditorOptions& opt
   workspace_.maps.on_ready([this] { screen_.wake(); });
   workspace_.run_in_background = [this](const std::string& title, bool quietly, Job::Work work,
                                         std::function<void()> then) {
-    Jobs& jobs = files_.jobs();
-    workspace_.messages.complain(quietly ? jobs.run_quietly(title, std::move(work), std::move(then))
-                                         : jobs.run(title, std::move(work), std::move(then)));
+    workspace_.messages.complain(
+        files_.jobs().run(title, std::move(work), std::move(then), quietly));
   };
   if (!options.file.empty()) files_.ask_open(options.file);
   const auto is_other = [&](const Recovery& each) {
@@ -257,7 +256,9 @@ Input Editor::read_input() {
 /// not, as far as the last frame tells.
 bool Editor::press_waits(Complex px) const {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool over_panel = io.WantCaptureMouse && Complex(io.MousePos.x, io.MousePos.y) == px;
+  constexpr double kSame = 0.5;  // px; ImGui rounds positions
+  const bool over_panel =
+      io.WantCaptureMouse && std::abs(Complex(io.MousePos.x, io.MousePos.y) - px) < kSame;
   if (over_panel || !workspace_.display.viewport.contains_px(px) || has_popup() ||
       files_.asking() || keys_.open() || palette_.open() || screen_.is_down(Key::space) ||
       is_before(workspace_.display, px))

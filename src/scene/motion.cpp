@@ -178,7 +178,6 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
                     std::shared_ptr<PreparedMap> prepared, const std::stop_token& stop) {
   list_keys(deformation, linear_blend, std::move(prepared));
   stopped_ = true;
-  const size_t listed = keys_.size();
   for (size_t i = 0; i < keys_.size();) {
     try {
       find_map(keys_[i], deformation, stop);
@@ -187,9 +186,9 @@ void Motion::follow(const Deformation& deformation, bool linear_blend,
       if (!error_) error_ = error;
       invalid_.emplace_back(keys_[i].pose, error);
       keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(i));
+      count_turns(deformation);
     }
   }
-  if (keys_.size() < listed) count_turns(deformation);
   stopped_ = false;
 }
 

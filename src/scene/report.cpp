@@ -79,7 +79,10 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   report.prepare_milliseconds = prepared.milliseconds;
   const MapReport linear = report_of_linear(mesh, map.f);
   report.map = report.in_triangles ? linear : report_of(mesh, map);
-  const auto point_map = frame.pose ? timed.point_map(frame) : nullptr;
+  // Certified maps are proved to have no zeros.
+  const bool proved = map.status == SampledMap::Status::certified;
+  if (proved) report.map.zeros.clear();
+  const auto point_map = frame.pose && !proved ? timed.point_map(frame) : nullptr;
   if (point_map && !point_map->is_linear_in_triangles()) {
     const Points& places = prepared.rest.derivative_samples;
     const auto fz_at = [&](const Points& points) {

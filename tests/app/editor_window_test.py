@@ -679,6 +679,19 @@ class EditorWindowTest(WindowCase):
                 self.assertLess(math.dist(a["rest"], b["rest"]), 0.5, (case, slow, quick))
                 self.assertLess(math.dist(a["pose"], b["pose"]), 0.5, (case, slow, quick))
 
+    def test_escape_discards_the_clicks_that_wait_for_the_cage(self):
+        with Image.open(self.picture) as picture:
+            picture.resize((4400, 3600)).save(self.picture)  # a cage that takes a while
+        with Editor([self.picture]) as editor:
+            editor.wait(lambda s: s["pictured"] and s["tool"] == "pin", "the picture")
+            x, y = editor.pixel(2200, 1800)
+            click = [["move", x, y], ["button", 0, True], ["button", 0, False]]
+            editor.send(*click, *click, *editor.pressed("Escape"))
+            editor.wait(lambda s: not s["pending"] and not s["exporting"], "the end of the job")
+            self.assertEqual(editor.state()["pins"], 0)
+            editor.send(*click)
+            editor.wait(lambda s: s["pins"] == 1 and not s["gesture"], "a pin, with the button up")
+
     def test_the_window_survives_extreme_poses(self):
         """Handles far beyond what floats of the graphics library hold, with each method and tool."""
         rng = random.Random(seed_of("extreme poses"))

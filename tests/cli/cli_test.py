@@ -476,7 +476,7 @@ class CommandLine(Case):
 
     def test_info(self):
         result = json.loads(self.good("info", old_sample("gecko"), "--json").stdout)
-        for key in ("method", "status", "iterations", "energies", "timings", "max_k", "min_sigma", "max_sigma",
+        for key in ("method", "status", "iterations", "energies", "timings", "measured", "max_k", "min_sigma", "max_sigma",
                     "zeros", "turning_number", "simple_boundary", "certified"):
             self.assertIn(key, result)
         self.assertEqual(result["method"], "pins")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 
 namespace holomorph {
 namespace {
@@ -13,15 +14,14 @@ bool can_draw(float radius) {
   return radius > 0 && radius <= kFarthest;
 }
 
-template <class... Places>
-bool can_draw_at_all(Places... places) {
-  return (can_draw_at(places) && ...);
+bool can_draw_at_all(std::same_as<ImVec2> auto... points) {
+  return (can_draw_at(points) && ...);
 }
 
 }  // namespace
 
-bool can_draw_at(ImVec2 place) {
-  return std::abs(place.x) <= kFarthest && std::abs(place.y) <= kFarthest;
+bool can_draw_at(ImVec2 point) {
+  return std::abs(point.x) <= kFarthest && std::abs(point.y) <= kFarthest;
 }
 
 void MarkList::line(ImVec2 from, ImVec2 to, ImU32 color, float width) {

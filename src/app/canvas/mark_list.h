@@ -9,8 +9,8 @@
 namespace holomorph {
 
 /// Draws shapes in window px. ImGui may crash where a coordinate is infinite, and extreme maps take
-/// handles anywhere. Therefore shapes at places that are not finite or farther away than 1e7 px are
-/// left out, and so are the parts of lines that touch such places. Single lines outside of the clip
+/// handles anywhere. Therefore shapes at points that are not finite or farther away than 1e7 px are
+/// left out, and so are the parts of lines that touch such points. Single lines outside of the clip
 /// rectangle are left out, too. Widths and radii are in px.
 class MarkList {
  public:
@@ -33,7 +33,7 @@ class MarkList {
   ImDrawList& list_;
 };
 
-/// Whether MarkList draws at a place.
-bool can_draw_at(ImVec2 place);
+/// Whether MarkList draws at a point.
+bool can_draw_at(ImVec2 point);
 
 }  // namespace holomorph

@@ -17,19 +17,13 @@ constexpr double kShortMs = 60;
 
 }  // namespace
 
-std::string Jobs::run(const std::string& title, Job::Work work, std::function<void()> then) {
+std::string Jobs::run(const std::string& title, Job::Work work, std::function<void()> then,
+                      bool quietly) {
   if (job_) abandon();
   job_ = std::make_unique<Job>(title, std::move(work), wake_);
   then_ = std::move(then);
-  quiet_ = false;
+  quiet_ = quietly;
   return job_->ended_within(kShortMs) ? finish() : "";
-}
-
-std::string Jobs::run_quietly(const std::string& title, Job::Work work,
-                              std::function<void()> then) {
-  std::string error = run(title, std::move(work), std::move(then));
-  quiet_ = true;
-  return error;
 }
 
 void Jobs::cancel() {
@@ -83,10 +77,10 @@ void Jobs::draw() {
   ImGui::Dummy({width, tall});
   caption(all > 0 ? std::to_string(done) + " of " + std::to_string(all) : "Please wait.");
   begin_dialog_buttons(px(96));
-  const bool cancel =
+  const bool canceled =
       button("Cancel", ButtonKind::secondary, px(96)) || dialog_key() == DialogKey::escape;
-  if (cancel) {
-    this->cancel();
+  if (canceled) {
+    cancel();
   } else if (job_->ended()) {
     workspace_.messages.complain(finish());
   }

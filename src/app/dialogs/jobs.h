@@ -16,11 +16,10 @@ class Jobs {
   /// Runs `work` on another thread. If the work succeeds and is not canceled, calls `then` on this
   /// thread. If the work is short, waits for it and returns its error message, or "". Waiting
   /// avoids flicker. Errors of longer work are shown as toasts. Cancels a job that is already
-  /// running.
-  std::string run(const std::string& title, Job::Work work, std::function<void()> then);
-  /// The same without a dialog, for work that a gesture on the canvas needs. Until it has ended,
-  /// quiet() is true, and input should wait.
-  std::string run_quietly(const std::string& title, Job::Work work, std::function<void()> then);
+  /// running. `quietly`: without a dialog, for work that a gesture on the canvas needs. Until it
+  /// has ended, quiet() is true, and input should wait.
+  std::string run(const std::string& title, Job::Work work, std::function<void()> then,
+                  bool quietly = false);
   bool running() const { return job_ != nullptr; }
   bool quiet() const { return job_ && quiet_; }
   /// The title of the running job.

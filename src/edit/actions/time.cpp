@@ -49,6 +49,7 @@ void delete_keys(Workspace& w, const KeySelection& keys) {
       continue;
     const bool edited = i == before.edited;
     const LiveMap& map = std::as_const(w.maps).of(before.layers[i]->id);
+    if (map.error()) continue;  // its keyframes have no maps, so it is not displayed at a time
     if (edited ? !w.shown.knows_pose() : map.busy() || !map.timed())
       return w.messages.say("The picture at this time is being prepared. Try again in a moment.");
     Layer layer = *after.layers[i];
