@@ -14,6 +14,7 @@ import threading
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
 from seeds import few_or_many, seed_of  # noqa: E402, F401
+from timed import note  # noqa: E402, F401
 
 
 def arguments(text, **options):

@@ -167,6 +167,7 @@ for round_number in range(options.rounds):
     folder = tempfile.mkdtemp(prefix="hostile-")
     for title, words, refused in Round(folder, random.Random(options.seed + round_number)).cases:
         outcome = attack.run([options.program, *words], folder, MOST_SECONDS)
+        attack.note(title, outcome.seconds)
         wrong = outcome.wrong(MOST_SECONDS, MOST_MEGABYTES) or ("is not rejected" if refused and outcome.status == 0 else "")
         if wrong:
             bad.append(f"{title}: {wrong}")

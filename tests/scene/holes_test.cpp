@@ -174,25 +174,6 @@ TEST_CASE("A pose with holes is mirrored, whichever way the holes run") {
   }
 }
 
-TEST_CASE("Holes move through in-betweens of every method that allows them") {
-  for (const Method& method : methods()) {
-    if (!method.allows_holes) continue;
-    Deformation deformation = scene_from_json(kText, "scene.json").deformation();
-    deformation.method = method.id;
-    INFO(method.id);
-    TimedMap timed(deformation);
-    double moved = 0;
-    VectorXc last;
-    for (const double time : {0.0, 0.3, 0.7, 1.0}) {
-      const SampledMap map = timed.on_mesh(timed.frame(time));
-      CHECK(map.f.allFinite());
-      if (last.size() > 0) moved = std::max(moved, (map.f - last).cwiseAbs().maxCoeff());
-      last = map.f;
-    }
-    CHECK(moved > 1);
-  }
-}
-
 TEST_CASE("The automatic cage keeps holes that are wide enough and empty") {
   const auto ring = [](Complex z) {
     return std::abs(z - Complex(150, 120)) < 100 && std::abs(z - Complex(160, 120)) > 50;

@@ -9,6 +9,13 @@ def used():
     return sum(u.ru_utime + u.ru_stime for u in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))
 
 
+def note(case, seconds):
+    """Notes the processor time of a case for measured.py."""
+    if path := os.environ.get("HOLOMORPH_SECONDS"):
+        with open(path, "a") as file:
+            file.write(f"{seconds:.2f}\t{case}\n")
+
+
 class TimedResult(unittest.TextTestResult):
     def startTest(self, test):
         self.start = used()
@@ -16,11 +23,9 @@ class TimedResult(unittest.TextTestResult):
 
     def stopTest(self, test):
         super().stopTest(test)
-        seconds = f"{used() - self.start:.2f}"
-        self.stream.writeln(f"    {seconds} s {test.id()}")
-        if path := os.environ.get("HOLOMORPH_SECONDS"):
-            with open(path, "a") as file:
-                file.write(f"{seconds}\t{test.id().removeprefix('__main__.')}\n")
+        seconds = used() - self.start
+        self.stream.writeln(f"    {seconds:.2f} s {test.id()}")
+        note(test.id().removeprefix("__main__."), seconds)
 
 
 def main(words):

@@ -291,7 +291,8 @@ TEST_CASE("Isometric maps: the energies of the specification, certified") {
         80,
         {square_around(-1.5, .7), square_around(1.5, .7)}},
        2.056}};
-  for (const Row& row : rows) {
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
     const Prepared prepared(row.problem);
     const IsometricMap map = prepared.space.solved(prepared.target, kSettings);
     INFO("energy " << map.solution.energy << " for " << row.energy << ", "
@@ -300,6 +301,7 @@ TEST_CASE("Isometric maps: the energies of the specification, certified") {
     CHECK(map.certificate.holds);
     CHECK(map.solution.converged);
     for (const Complex& gap : map.solution.gaps) CHECK(std::abs(gap) <= 1e-7);
+    if (i % 3 != 0 && !soaks()) continue;
     // Twice as many vertices hardly lower the energy.
     Problem finer = row.problem;
     finer.vertices *= 2;

@@ -47,7 +47,7 @@ Dragged dragged(const Puppet& puppet, Deformer& deformer, std::mt19937& random) 
     const int kind = static_cast<int>(random() % 4);
     const double right = uniform(), up = uniform();
     const Complex far = from + 0.3 * puppet.size * Complex(right, up);
-    const int steps = kind == 2 ? 120 : 25;
+    const int steps = (kind == 2 ? 5 : 1) * few_or_many(8, 25);
     for (int k = 1; k <= steps; ++k) {
       const double t = static_cast<double>(k) / steps;
       Complex at = from + t * (far - from);

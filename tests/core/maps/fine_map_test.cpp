@@ -42,9 +42,11 @@ double largest_error(const FineMap& fine, const Cage& cage, const PointMap& map,
 }  // namespace
 
 TEST_CASE("Fine map: linear pieces are within the tolerance of every method's map") {
+  size_t turn = 0;  // scripts/test takes one shape of each method
   for (const unsigned seed : seeds_of("Fine map", {1}))
-    for (const Method& method : methods())
-      for (const Shape shape : shapes_for(method)) {
+    for (const Method& method : methods()) {
+      const std::vector<Shape> all = shapes_for(method);
+      for (const Shape shape : soaks() ? all : std::vector{all[turn++ % all.size()]}) {
         Setup s = setup(method, Precision::full, shape);
         std::mt19937 random(seed);
         for (Points& segment : s.pose.cage.segments)
@@ -57,10 +59,11 @@ TEST_CASE("Fine map: linear pieces are within the tolerance of every method's ma
         constexpr double kTolerance = 0.01;
         const FineMap fine =
             fine_map(s.rest.cage, *s.rest.mesh, kTolerance, values_of(*map), map->is_piecewise());
-        CHECK(largest_error(fine, s.rest.cage, *map, few_or_many(100, 400), random) <= kTolerance);
+        CHECK(largest_error(fine, s.rest.cage, *map, few_or_many(40, 400), random) <= kTolerance);
         // At corners, the derivative of an angle map may be infinite.
         if (method.id != "angles") CHECK(fine.error <= kTolerance);
       }
+    }
 }
 
 TEST_CASE("Point maps: many points at once give the same values as one at a time") {

@@ -38,7 +38,7 @@ TEST_CASE("Threads that multiply at the same time do not disturb each other") {
 }
 
 TEST_CASE("Large products are the sums of their terms") {
-  for (const unsigned seed : seeds_of("large products", {1, 2})) {
+  for (const unsigned seed : seeds_of("large products", {1})) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     std::uniform_int_distribution<Index> sizes(480, 620);
