@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/maps/distortion.h"
+#include "core/maps/mesh_point_map.h"
 #include "scene/budget.h"
 #include "scene/keyframes.h"
 
@@ -369,6 +370,12 @@ SampledMap Motion::sampled_at(double time, bool derivatives, bool measures) {
     map.note = key.note;
   }
   return map;
+}
+
+std::unique_ptr<PointMap> Motion::point_map(const SampledMap& map) const {
+  if (proved_)
+    if (auto own = proved_->point_map(map)) return own;
+  return std::make_unique<MeshPointMap>(prepared_->mesh, map.f);
 }
 
 VectorXc Motion::map_at(double time) {

@@ -75,6 +75,8 @@ class Motion {
   /// key, it has the key's certificate, if there is one. `measures`: sets SampledMap::extremes,
   /// too.
   SampledMap sampled_at(double time, bool derivatives, bool measures = false);
+  /// A result of sampled_at() at single points.
+  std::unique_ptr<PointMap> point_map(const SampledMap& map) const;
   /// The deformation with its handles in their positions at a time. `map` must be map_at(time).
   /// Between two keyframes, the handles follow the picture around them.
   Deformation deformation_at(const Deformation& deformation, double time, const VectorXc& map);

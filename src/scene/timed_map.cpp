@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/cauchy/inside.h"
-#include "core/maps/mesh_point_map.h"
 #include "core/mesh/mesher.h"
 #include "core/parallel.h"
 #include "scene/budget.h"
@@ -54,11 +53,11 @@ SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
     return at_points_->deform(*frame.pose, {true});
   }
   SampledMap map;
-  const MeshPointMap between(prepared_->mesh, frame.between.f);
+  const std::vector<PointMap::Value> values = motion_.point_map(frame.between)->values_at(points);
   const Index count = static_cast<Index>(points.size());
   for (VectorXc* part : {&map.f, &map.fz, &map.fzbar}) part->resize(count);
   for (Index i = 0; i < count; ++i) {
-    const PointMap::Value value = between.at(points[static_cast<size_t>(i)]);
+    const PointMap::Value& value = values[static_cast<size_t>(i)];
     map.f[i] = value.f;
     map.fz[i] = value.fz;
     map.fzbar[i] = value.fzbar;
@@ -144,7 +143,7 @@ std::vector<std::vector<Preimage>> TimedMap::Inverse::at(
 
 std::unique_ptr<PointMap> TimedMap::point_map(const TimedFrame& frame) const {
   if (frame.pose) return prepared_->deformer->point_map(*frame.pose);
-  return std::make_unique<MeshPointMap>(prepared_->mesh, frame.between.f);
+  return motion_.point_map(frame.between);
 }
 
 std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const TimedFrame& frame) const {

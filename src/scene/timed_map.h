@@ -13,8 +13,8 @@
 namespace holomorph {
 
 /// The map at a moment. In the deformation's own pose and at keyframes, the method computes the map
-/// with its guarantees. Between keyframes, the map is known at the mesh's vertices; it is certified
-/// if the method proves its maps and both keys are certified.
+/// with its guarantees. Between keyframes, the map is certified if the method proves its maps
+/// and both keys are certified; otherwise, it is linear in the mesh's triangles.
 struct TimedFrame {
   Deformation deformation;   ///< with the handles' positions at that moment
   std::optional<Pose> pose;  ///< none between keyframes

@@ -29,9 +29,9 @@ LogInbetween::LogInbetween(std::shared_ptr<const BoundaryBasis> basis,
       on_mesh_(*basis_, *mesh_),
       loops_(*mesh_, basis_->polygon()),
       integrals_(*basis_, *mesh_, stations, loops_.paths()),
-      size_(box_of(mesh_->vertices).diagonal()) {
-  for (const Complex& z : stations) stations_.push_back(locate_near(*mesh_, z));
-}
+      stations_(stations),
+      locator_(*mesh_),
+      size_(box_of(mesh_->vertices).diagonal()) {}
 
 bool LogInbetween::is_nu(const Sum& sum) {
   return std::ranges::all_of(
@@ -185,17 +185,19 @@ LogInbetween::Interval LogInbetween::interval(const Key* before, const Key& from
       interval.controls[2][k] -= third * end[k];
     }
   }
-  // A station that a key misses, or that the keys hold at different places, is not still.
-  constexpr double kSame = 1e-3;
-  std::vector<Index> still;
+  interval.conformal = from.map.w.isZero(0) && to.map.w.isZero(0);
+  const auto place = [&](Complex z) {
+    const int vertex = locator_.vertex_near(z);
+    interval.anchors.push_back(vertex);
+    interval.placed.push_back({mesh_->vertices[static_cast<size_t>(vertex)], z});
+  };
+  std::vector<Index>& still = interval.still;
   for (size_t i = 0; i < stations_.size(); ++i) {
-    const Complex a = stations_[i].in(*mesh_, as_span(from.f)),
-                  b = stations_[i].in(*mesh_, as_span(to.f));
-    if (!held[i] || std::abs(a - b) > kSame * size_) continue;
+    if (!held[i]) continue;
     still.push_back(static_cast<Index>(i));
-    interval.placed.push_back(stations_[i]);
+    place(stations_[i]);
   }
-  if (still.empty()) interval.placed = {least_moving_point(*mesh_, from.f, to.f)};
+  if (still.empty()) place(least_moving_point(*mesh_, from.f, to.f).in(*mesh_, mesh_->vertices));
   const Index pairs = std::max<Index>(0, static_cast<Index>(still.size()) - 1),
               holes = static_cast<Index>(loops_.paths().size()), count = integrals_.count();
   interval.constant = MatrixXd::Zero(pairs + holes, count);
@@ -205,16 +207,17 @@ LogInbetween::Interval LogInbetween::interval(const Key* before, const Key& from
     interval.constant(i, next - 1) = 1;
   }
   interval.constant.bottomRightCorner(holes, holes).setIdentity();
-  const auto measure = [&](const Key& key, VectorXc& value, VectorXc& off) {
+  const auto measure = [&](const Key& key, VectorXc& value, VectorXc& off, VectorXc& places) {
     const Sum sum{{{1, &key.map}},
                   {VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())}};
     const Derivatives d = weighted(sum);
     const VectorXc integrals = integrals_.of(d.phi, d.psi);
     value = interval.constant * integrals;
     off = key.f - without_jumps(on_mesh(sum).f, integrals.tail(holes));
+    places = interval.images(sum, key.f);
   };
-  measure(from, interval.at_from, interval.off_from);
-  measure(to, interval.at_to, interval.off_to);
+  measure(from, interval.at_from, interval.off_from, interval.placed_from);
+  measure(to, interval.at_to, interval.off_to, interval.placed_to);
   return interval;
 }
 
@@ -243,7 +246,8 @@ LogMap LogInbetween::constrained_change(const Kept& kept, Sum sum, bool conforma
 /// Like constrained_change(), but also keeps |nu| and the size within bounds at the samples of the
 /// boundary. Where a sample is outside a bound, its value is prescribed from then on: |nu|, or the
 /// logarithm Re l + ln(1 - |nu|) of the size.
-LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& bounds) const {
+LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& bounds,
+                                    bool conformal) const {
   constexpr int kSteps = 12;
   constexpr double kNone = 1e-9, kClose = 1e-7;
   const MatrixXc &c = certifier_.coordinates(), &whitened = basis_->at_samples();
@@ -264,12 +268,13 @@ LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& b
                          shear = length - bounds.shear;
     const Derivatives d = weighted(sum);
     TreeIntegrals::Change change{kept.combinations,
-                                 kept.targets - kept.combinations * integrals_.of(d.phi, d.psi)};
+                                 kept.targets - kept.combinations * integrals_.of(d.phi, d.psi),
+                                 LogMap::Second::nu, conformal};
     if (std::max({size.maxCoeff(), shear.maxCoeff(),
                   change.wanted.cwiseAbs().maxCoeff() / size_}) <= kClose)
       break;
     add_worst(size, sized);
-    add_worst(shear, sheared);
+    if (!conformal) add_worst(shear, sheared);
     const Index sizes = static_cast<Index>(sized.size()),
                 shears = static_cast<Index>(sheared.size());
     change.rows_l = MatrixXc::Zero(sizes + shears, whitened.cols());
@@ -292,66 +297,86 @@ LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& b
   return sum.change;
 }
 
-/// Gives the sum the smallest change that certifies, of those that keep stations still and close
-/// holes. Says in `blend` how it went.
-void LogInbetween::Interval::correct(Sum& sum, double share, Blend& blend) const {
+/// Gives the sum a change. Whether the keys' extremes are proved for the result.
+bool LogInbetween::Interval::certifies(Sum& sum, LogMap change) const {
+  sum.change = std::move(change);
+  return owner->certify(sum, std::span(keys).subspan(1, 2));
+}
+
+/// Starts at several changes between the least one and a change of l alone, which does not increase
+/// |nu|. If limits are exceeded between samples, tries limits that are 2 % tighter.
+bool LogInbetween::Interval::keeps_within_limits(const Kept& kept, Sum& sum,
+                                                 const LogMap& least) const {
+  if (kept.combinations.rows() == 0) return false;
   const Sum blended = sum;
-  const auto certifies_with = [&](const LogMap& change) {
-    sum.change = change;
-    blend.certified = owner->certify(sum, std::span(keys).subspan(1, 2));
-    return blend.certified;
-  };
   const auto starting_at = [&](const LogMap& change) {
     Sum start = blended;
     start.change = change;
     return start;
   };
-  const bool conformal = keys[1]->map.w.isZero(0) && keys[2]->map.w.isZero(0);
-  // Starts at several changes between the least one and a change of l alone, which does not
-  // increase |nu|. If limits are exceeded between samples, tries limits that are 2 % tighter.
-  const auto certifies_within_limits = [&](const Kept& kept, const LogMap& least) {
-    if (conformal || kept.combinations.rows() == 0) return false;
-    const LogMap alone = owner->constrained_change(kept, blended, true);
-    if (!is_nu(blended))
-      return certifies_with(alone) || certifies_with(owner->constrained_change(
-                                          kept, starting_at(between(least, alone, 0.5)), false));
-    for (const double part : {0.0, 0.5, 1.0})
-      for (const double margin : {0.0, 0.02})
-        if (certifies_with(owner->bounded_change(
-                kept, starting_at(between(least, alone, part)),
-                {(1 - margin) * std::max(keys[1]->extremes.shear, keys[2]->extremes.shear),
-                 (1 + margin) * std::min(keys[1]->extremes.smallest, keys[2]->extremes.smallest)})))
-          return true;
-    return false;
-  };
-  const Kept kept{constant, (1 - share) * at_from + share * at_to};
-  const LogMap whole = owner->constrained_change(kept, blended, conformal);
-  if (certifies_with(whole) || certifies_within_limits(kept, whole)) return;
-  // Otherwise the map moves toward the blend, which certifies. Holes stay closed.
-  const Index holes = static_cast<Index>(owner->loops_.paths().size());
-  const Kept closed{kept.combinations.bottomRows(holes), kept.targets.tail(holes)};
-  const LogMap least = owner->constrained_change(closed, blended, conformal);
-  constexpr double kLeast = 1e-3;
-  for (blend.held = 0.5;; blend.held = blend.held > kLeast ? 0.5 * blend.held : 0) {
-    if (certifies_with(owner->constrained_change(
-            closed, starting_at(between(least, whole, blend.held)), conformal)))
-      return;
-    if (blend.held == 0) break;
+  const LogMap alone = conformal ? least : owner->constrained_change(kept, blended, true);
+  if (!is_nu(blended))
+    return certifies(sum, alone) ||
+           certifies(sum, owner->constrained_change(kept, starting_at(between(least, alone, 0.5)),
+                                                    conformal));
+  const double shear = std::max(keys[1]->extremes.shear, keys[2]->extremes.shear),
+               smallest = std::min(keys[1]->extremes.smallest, keys[2]->extremes.smallest);
+  for (const double part : {0.0, 0.5, 1.0}) {
+    if (conformal && part > 0) break;
+    for (const double margin : {0.0, 0.02})
+      if (certifies(sum, owner->bounded_change(kept, starting_at(between(least, alone, part)),
+                                               {(1 - margin) * shear, (1 + margin) * smallest},
+                                               conformal)))
+        return true;
   }
-  if (!certifies_within_limits(closed, least)) sum.change = least;
+  return false;
 }
 
-LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
-  const double v = 1 - u, share = smooth ? smoothstep(u) : u;
-  const std::array<double, 4> bernstein =
-      smooth ? std::array<double, 4>{v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u}
-             : std::array<double, 4>{v, 0, 0, u};
-  std::array<double, 4> weights{};
-  for (size_t p = 0; p < 4; ++p)
-    for (size_t k = 0; k < 4; ++k) weights[k] += bernstein[p] * controls[p][k];
-  Sum sum = owner->sum_of(keys, weights);
-  Blend blend;
-  correct(sum, share, blend);
+/// Changes the sum so that stations are where they should be and holes are closed, and whether that
+/// was possible within the keys' extremes.
+bool LogInbetween::Interval::keeps(const Kept& kept, Sum& sum) const {
+  const Sum blended = sum;
+  const LogMap whole = owner->constrained_change(kept, blended, conformal);
+  if (certifies(sum, whole)) return true;
+  sum = blended;
+  return keeps_within_limits(kept, sum, whole);
+}
+
+/// Gives the sum the smallest change that certifies, of those that keep stations still and close
+/// holes; or else smaller changes, toward the blend, which certifies. Holes stay closed.
+void LogInbetween::Interval::correct(const VectorXc& wanted, Sum& sum, Blend& blend) const {
+  const Sum blended = sum;
+  const Kept kept{constant, wanted};
+  blend.certified = keeps(kept, sum);
+  if (blend.certified) return;
+  const LogMap whole = owner->constrained_change(kept, blended, conformal);
+  const Index holes = static_cast<Index>(owner->loops_.paths().size());
+  const Kept closed{constant.bottomRows(holes), wanted.tail(holes)};
+  const LogMap least = owner->constrained_change(closed, blended, conformal);
+  const auto certifies_part = [&](double part) {
+    Sum tried = blended;
+    tried.change = between(least, whole, part);
+    if (!certifies(tried, owner->constrained_change(closed, tried, conformal))) return false;
+    sum = std::move(tried);
+    return true;
+  };
+  constexpr double kLeast = 1e-3;
+  double part = 0.5;
+  while (part > kLeast && !certifies_part(part)) part *= 0.5;
+  blend.certified = part > kLeast || certifies_part(0);
+  // The largest part, so that pins start to slide without a jump.
+  constexpr int kBisections = 4;
+  double step = 0.5 * part;
+  for (int i = 0; part > kLeast && i < kBisections; ++i, step *= 0.5)
+    if (certifies_part(part + step)) part += step;
+  if (blend.certified) return;
+  sum = blended;
+  blend.certified = keeps_within_limits(closed, sum, least);
+  if (!blend.certified) sum.change = least;
+}
+
+/// Fills in f and its derivatives, and closes what integration leaves open around holes.
+void LogInbetween::Interval::draw(const Sum& sum, double share, Blend& blend) const {
   MapOnMesh::Values values = owner->on_mesh(sum);
   blend.first = std::move(values.first);
   blend.f = std::move(values.f);
@@ -365,14 +390,61 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
     blend.f = owner->without_jumps(std::move(blend.f), gaps);
   }
   blend.f += (1 - share) * off_from + share * off_to;
+  blend.f.array() += misses(sum, share, blend.f).mean();
+}
+
+/// The images of the placed points by a sum with values f at the mesh's vertices.
+VectorXc LogInbetween::Interval::images(const Sum& sum, const VectorXc& f) const {
+  if (is_nu(sum)) {
+    VectorXc images = increments_along(*owner->basis_, single(sum), placed);
+    for (size_t i = 0; i < anchors.size(); ++i) images[static_cast<Index>(i)] += f[anchors[i]];
+    return images;
+  }
   const Mesh& mesh = *owner->mesh_;
-  Complex off = 0;
-  for (const Location& at : placed)
-    off += (1 - share) * at.in(mesh, as_span(keys[1]->f)) +
-           share * at.in(mesh, as_span(keys[2]->f)) - at.in(mesh, as_span(blend.f));
-  blend.f.array() += off / static_cast<double>(placed.size());
-  if (measures && blend.certified && is_nu(sum))
-    blend.extremes = owner->certifier_.extremes(single(sum));
+  VectorXc images(static_cast<Index>(placed.size()));
+  for (size_t i = 0; i < placed.size(); ++i)
+    images[static_cast<Index>(i)] = owner->locator_.near(placed[i].to).in(mesh, as_span(f));
+  return images;
+}
+
+/// What is missing from the straight ways of the placed points.
+VectorXc LogInbetween::Interval::misses(const Sum& sum, double share, const VectorXc& f) const {
+  return (1 - share) * placed_from + share * placed_to - images(sum, f);
+}
+
+LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
+  const double v = 1 - u, share = smooth ? smoothstep(u) : u;
+  const std::array<double, 4> bernstein =
+      smooth ? std::array<double, 4>{v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u}
+             : std::array<double, 4>{v, 0, 0, u};
+  std::array<double, 4> weights{};
+  for (size_t p = 0; p < 4; ++p)
+    for (size_t k = 0; k < 4; ++k) weights[k] += bernstein[p] * controls[p][k];
+  Sum sum = owner->sum_of(keys, weights);
+  Blend blend;
+  VectorXc wanted = (1 - share) * at_from + share * at_to;
+  correct(wanted, sum, blend);
+  draw(sum, share, blend);
+  // Integration along the mesh is less accurate, and half of the way may make the rest possible.
+  constexpr int kPasses = 3;
+  constexpr double kClose = 0.1 * kStill;
+  VectorXc off = misses(sum, share, blend.f);
+  for (int pass = 0; pass < kPasses && blend.certified && still.size() > 1; ++pass) {
+    if (off.cwiseAbs().maxCoeff() <= kClose * owner->size_) break;
+    const Index pairs = off.size() - 1;
+    wanted.head(pairs) += off.tail(pairs) - off.head(pairs);
+    Sum closer = sum;
+    if (!keeps({constant, wanted}, closer)) break;
+    sum = std::move(closer);
+    draw(sum, share, blend);
+    off = misses(sum, share, blend.f);
+  }
+  Index worst = 0;
+  if (!still.empty() && off.cwiseAbs().maxCoeff(&worst) > kStill * owner->size_)
+    blend.slide = Blend::Slide{still[static_cast<size_t>(worst)], -off[worst]};
+  if (is_nu(sum)) blend.map = single(sum);
+  if (measures && blend.certified && blend.map)
+    blend.extremes = owner->certifier_.extremes(*blend.map);
   return blend;
 }
 

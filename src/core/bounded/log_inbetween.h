@@ -12,9 +12,11 @@
 
 #include "core/bounded/certificate.h"
 #include "core/bounded/map_on_mesh.h"
+#include "core/bounded/path_integral.h"
 #include "core/bounded/tree_integrals.h"
 #include "core/maps/deformer.h"
 #include "core/mesh/hole_loops.h"
+#include "core/mesh/locator.h"
 
 namespace holomorph {
 
@@ -36,16 +38,26 @@ class LogInbetween {
   /// The mean of Im l over the mesh's vertices: the average rotation of the picture.
   double mean_argument(const LogMap& map) const { return on_mesh_.function(map.l).imag().mean(); }
 
+  /// Stations that both keys hold stay within this fraction of the size of the straight line from
+  /// their place in one key to their place in the other.
+  static constexpr double kStill = 1e-4;
   /// The map between two keys.
   struct Blend {
     VectorXc f;
     Derivatives first;  ///< at the mesh's vertices
     /// Whether it is proved that |nu| and the smallest size stay within 1 % of the keys' extremes.
     bool certified = false;
-    std::optional<Extremes> extremes;  ///< if both keys are in the space L_nu
-    /// The fraction of the correction that keeps stations still where both keys hold them. 1: they
-    /// stay to rounding error. Smaller: no larger fraction could be proved.
-    double held = 1;
+    /// If both keys are in the space L_nu: the map, up to a constant, and its extremes, if they are
+    /// measured.
+    std::optional<LogMap> map;
+    std::optional<Extremes> extremes;
+    /// The station that is farthest from its place although both keys hold it, and its way from
+    /// there, if that is more than kStill of the size: no larger correction could be proved.
+    struct Slide {
+      Index station;
+      Complex way;
+    };
+    std::optional<Slide> slide;
     /// By how much f jumped before the jumps were spread over the picture; 0 without holes.
     double gap = 0;
   };
@@ -55,6 +67,11 @@ class LogInbetween {
   struct Sum {
     std::vector<std::pair<double, const LogMap*>> terms;
     LogMap change;
+  };
+  /// Combinations of integrals, and what they should be.
+  struct Kept {
+    MatrixXd combinations;
+    VectorXc targets;
   };
 
  public:
@@ -67,16 +84,28 @@ class LogInbetween {
 
    private:
     friend class LogInbetween;
-    void correct(Sum& sum, double share, Blend& blend) const;
+    bool certifies(Sum& sum, LogMap change) const;
+    bool keeps(const Kept& kept, Sum& sum) const;
+    bool keeps_within_limits(const Kept& kept, Sum& sum, const LogMap& least) const;
+    void correct(const VectorXc& wanted, Sum& sum, Blend& blend) const;
+    void draw(const Sum& sum, double share, Blend& blend) const;
+    VectorXc images(const Sum& sum, const VectorXc& f) const;
+    VectorXc misses(const Sum& sum, double share, const VectorXc& f) const;
     const LogInbetween* owner = nullptr;
     std::array<const Key*, 4> keys{};  ///< the one before, both ends, and the one after
     /// Four points of a Bezier curve, as weights of the keys.
     std::array<std::array<double, 4>, 4> controls{};
     bool smooth = false;
+    bool conformal = false;  ///< both ends are
     /// Combinations of integrals that stay: around holes, and between stations that both ends hold.
     MatrixXd constant;
-    VectorXc at_from, at_to;       ///< their values at the ends
-    std::vector<Location> placed;  ///< points that move straight: still stations, or one point
+    VectorXc at_from, at_to;   ///< their values at the ends
+    std::vector<Index> still;  ///< the stations that both ends hold
+    /// Points that move straight: still stations, or one point. Each is at the end of a line that
+    /// starts at the vertex from which its images are integrated.
+    std::vector<Line> placed;
+    std::vector<int> anchors;         ///< these vertices
+    VectorXc placed_from, placed_to;  ///< the images at the ends
     /// The ends minus what integration along the mesh gives for them. Blended, it is added to maps
     /// in between, so that these are as accurate.
     VectorXc off_from, off_to;
@@ -95,13 +124,8 @@ class LogInbetween {
   double norm(const Sum& sum) const;
   double distance(const Key& a, const Key& b) const;
   std::array<double, 4> velocity(const std::array<const Key*, 4>& keys, size_t at) const;
-  /// Combinations of integrals, and what they should be.
-  struct Kept {
-    MatrixXd combinations;
-    VectorXc targets;
-  };
   LogMap constrained_change(const Kept& kept, Sum sum, bool conformal) const;
-  LogMap bounded_change(const Kept& kept, Sum sum, const Extremes& bounds) const;
+  LogMap bounded_change(const Kept& kept, Sum sum, const Extremes& bounds, bool conformal) const;
   MapOnMesh::Values on_mesh(const Sum& sum) const;
   VectorXc without_jumps(VectorXc f, const VectorXc& gaps) const;
 
@@ -111,7 +135,8 @@ class LogInbetween {
   MapOnMesh on_mesh_;
   HoleLoops loops_;
   TreeIntegrals integrals_;
-  std::vector<Location> stations_;
+  Points stations_;
+  MeshLocator locator_;
   double size_;
 };
 

@@ -125,6 +125,11 @@ class ProvedMotion {
   virtual std::unique_ptr<MotionInterval> interval(const MotionKey* before, const MotionKey& from,
                                                    const MotionKey& to, const MotionKey* after,
                                                    bool smooth) const = 0;
+  /// A map that an interval has given, at single points. Null if it is linear in each triangle.
+  virtual std::unique_ptr<PointMap> point_map(const SampledMap& between) const {
+    (void)between;
+    return nullptr;
+  }
 };
 
 /// The precomputed data of a Rest. Computes the map of any pose until the rest changes.

@@ -11,6 +11,15 @@ std::string short_pin_text(size_t pin, double pixels) {
   return text;
 }
 
+std::string sliding_pin_text(size_t pin, double pixels) {
+  char text[128];
+  std::snprintf(
+      text, sizeof text,
+      ". Pin %d slides %.*f px: staying would take more distortion than the keyframes have",
+      static_cast<int>(pin) + 1, pixels < 10 ? 1 : 0, pixels);
+  return text;
+}
+
 std::string missed_pins_text(std::span<const size_t> pins, std::span<const Complex> offsets,
                              double least) {
   double farthest = 0;

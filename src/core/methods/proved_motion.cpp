@@ -1,6 +1,7 @@
 #include "core/methods/proved_motion.h"
 
 #include "core/maps/distortion.h"
+#include "core/methods/bounded_points.h"
 #include "core/methods/notes.h"
 
 namespace holomorph {
@@ -8,13 +9,19 @@ namespace {
 
 using Key = LogInbetween::Key;
 
+struct Found final : Solution {
+  explicit Found(LogMap found) : map(std::move(found)) {}
+  LogMap map;
+};
+
 class LogInterval final : public MotionInterval {
  public:
-  LogInterval(std::shared_ptr<const LogInbetween> between, std::shared_ptr<const Mesh> mesh,
+  LogInterval(std::shared_ptr<const LogInbetween> between, const MotionSetting& setting,
               std::array<std::unique_ptr<const Key>, 4> keys, bool smooth,
               const std::vector<char>& held)
       : between_(std::move(between)),
-        mesh_(std::move(mesh)),
+        mesh_(setting.mesh),
+        pins_(setting.pins),
         keys_(std::move(keys)),
         interval_(between_->interval(keys_[0].get(), *keys_[1], *keys_[2], keys_[3].get(), smooth,
                                      held)) {}
@@ -26,19 +33,23 @@ class LogInterval final : public MotionInterval {
     map.fz = std::move(blend.first.phi);
     map.fzbar = blend.first.psi.conjugate();
     map.extremes = blend.extremes;
+    if (blend.map) map.solution = std::make_shared<Found>(std::move(*blend.map));
     const int flipped = flipped_triangles(*mesh_, map.f);
     map.status = blend.certified && flipped == 0 ? SampledMap::Status::certified
                                                  : SampledMap::Status::infeasible;
     map.note = !blend.certified ? "Between keyframes: not proved"
                : flipped > 0    ? coarse_mesh_text(flipped)
-               : blend.held < 1 ? "Between keyframes: no folds, pins that should stay slide"
                                 : "Between keyframes: no folds";
+    if (blend.certified && blend.slide)
+      map.note += sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)],
+                                   std::abs(blend.slide->way));
     return map;
   }
 
  private:
   std::shared_ptr<const LogInbetween> between_;
   std::shared_ptr<const Mesh> mesh_;
+  std::vector<size_t> pins_;
   std::array<std::unique_ptr<const Key>, 4> keys_;
   LogInbetween::Interval interval_;
 };
@@ -59,7 +70,13 @@ class LogMotion final : public ProvedMotion {
     std::vector<char> held;
     for (const size_t i : setting_.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
-    return std::make_unique<LogInterval>(between_, setting_.mesh, std::move(keys), smooth, held);
+    return std::make_unique<LogInterval>(between_, setting_, std::move(keys), smooth, held);
+  }
+
+  std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
+    const auto* found = dynamic_cast<const Found*>(between.solution.get());
+    if (!found) return nullptr;
+    return std::make_unique<BoundedPointMap>(setting_.basis, setting_.mesh, found->map, between.f);
   }
 
  private:

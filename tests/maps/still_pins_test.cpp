@@ -1,0 +1,91 @@
+// Pins that both keys hold stay between them, or the frame says which one slides, and how far.
+#include "scene/keyframes.h"
+#include "scene/prepared_map.h"
+#include "scene/timed_map.h"
+#include "support/catch.h"
+#include "support/random_puppet.h"
+#include "support/seeds.h"
+
+namespace holomorph::still_pins_test {
+
+namespace {
+
+/// A random puppet with two keys. Its first two pins have the same place in both.
+Deformation random_pair(const std::string& method, std::mt19937& random) {
+  const Puppet puppet = random_puppet(random);
+  Deformation deformation;
+  deformation.rest = deformation.pose = puppet.rest.cage;
+  deformation.method = method;
+  for (const RestPin& rest : puppet.rest.pins) {
+    Pin pin;
+    pin.rest = pin.pose = rest.position;
+    deformation.pins.push_back(pin);
+  }
+  for (const double time : {0.0, 1.0}) {
+    for (size_t i = 2; i < deformation.pins.size(); ++i) {
+      Pin& pin = deformation.pins[i];
+      pin.pose = pin.rest + 0.3 * puppet.size * random_complex(random);
+    }
+    deformation.keyframes.push_back({time, whole_pose_of(deformation), Ease::linear});
+  }
+  return deformation;
+}
+
+void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) {
+  int pairs = 0, sliding = 0;
+  for (const unsigned seed : seeds) {
+    INFO(method << ", seed " << seed);
+    std::mt19937 random(seed);
+    Deformation deformation = random_pair(method, random);
+    const bool is_smooth = seed % 2 == 0;
+    if (is_smooth) deformation.keyframes[0].ease = Ease::smooth;
+    TimedMap timed(deformation);
+    const double size = box_of(timed.mesh().vertices).diagonal();
+    const Points still{deformation.pins[0].rest, deformation.pins[1].rest};
+    const VectorXc from = timed.at(timed.frame(0), still).f, to = timed.at(timed.frame(1), still).f;
+    if (timed.on_mesh(timed.frame(0)).status != SampledMap::Status::certified ||
+        timed.on_mesh(timed.frame(1)).status != SampledMap::Status::certified)
+      continue;
+    ++pairs;
+    const int frames = few_or_many(4, 10);
+    bool slides = false;
+    for (int frame = 1; frame < frames; ++frame) {
+      const double u = static_cast<double>(frame) / frames,
+                   share = is_smooth ? u * u * (3 - 2 * u) : u;
+      const TimedFrame at = timed.frame(u);
+      if (at.between.status != SampledMap::Status::certified) continue;
+      const VectorXc off = timed.at(at, still).f - (1 - share) * from - share * to;
+      const auto names = [&](Index pin) {
+        const std::string text = "Pin " + std::to_string(pin + 1) + " slides";
+        return at.between.note.find(text) != std::string::npos;
+      };
+      Index worst = 0;
+      INFO("at " << u << ": " << at.between.note);
+      const double most = off.cwiseAbs().maxCoeff(&worst);
+      if (most > 1e-4 * size) {
+        slides = true;
+        // With two pins on different ways, the picture is placed between them.
+        const bool is_tie = std::abs(off[1 - worst]) > 0.999 * most;
+        CHECK((names(worst) || (is_tie && names(1 - worst))));
+      } else {
+        CHECK_THAT(at.between.note, !Catch::Contains("slides"));
+      }
+    }
+    sliding += slides;
+  }
+  INFO(method << ": pins slide in " << sliding << " of " << pairs << " pairs");
+  CHECK(pairs > 0);
+  if (pairs >= 50) CHECK(sliding <= pairs / 50);
+}
+
+}  // namespace
+
+TEST_CASE("Still pins of puppets move straight from key to key, or the note names one") {
+  check_pairs("puppet", seeds_of("still pins of puppets", {41}));  // one that slides
+}
+
+TEST_CASE("Still pins of bounded maps move straight from key to key, or the note names one") {
+  check_pairs("bounded", seeds_of("still pins of bounded maps", {1039, 7}));  // one that slides
+}
+
+}  // namespace holomorph::still_pins_test
