@@ -277,8 +277,20 @@ std::vector<OnionSkin> Workspace::onion_skins() const {
   return skins;
 }
 
+/// Drops a preview that no scene may have, and says why.
+void Workspace::refuse_far_preview() {
+  if (!shown.preview) return;
+  try {
+    check_pose_coordinates(*shown.preview);
+  } catch (const Error& error) {
+    shown.preview.reset();
+    messages.complain(error);
+  }
+}
+
 bool Workspace::update_map(EvalOptions options) {
   has_edits_ = false;
+  refuse_far_preview();
   const Deformation& own = shown.own();
   const std::optional<double> time = shown.time();
   if (released_ && (shown.preview || own != *released_)) released_.reset();

@@ -7,10 +7,10 @@
 #include "core/maps/heat.h"
 #include "edit/actions/actions.h"
 #include "edit/edits/displacement.h"
+#include "edit/fold_finder.h"
 #include "edit/messages.h"
 #include "edit/shown.h"
 #include "edit/viewport.h"
-#include "edit/visible_folds.h"
 #include "scene/auto_cage.h"
 #include "scene/layer_maps.h"
 #include "system/job.h"
@@ -217,6 +217,7 @@ struct Workspace {
   bool continues_step(const std::string& label) const;
   bool changes_closed_layer(const Scene& scene) const;
   void leave_layer();
+  void refuse_far_preview();
   void adopt_better_turns();
   /// Whether a scene may enter the history. If not, a toast says why.
   bool accepts(const Scene& scene);

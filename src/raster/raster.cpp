@@ -117,12 +117,13 @@ RasterResult rasterized(const RasterJob& job) {
     };
     least.left = whole(box.left * scale);
     least.top = whole((top_edge - box.top) * scale);
-    check_size(box.width() * scale + 1, box.height() * scale + 1);
+    check_size(box.width() * scale, box.height() * scale);
     const int smallest = job.region ? 0 : 1;  // a placement may be tiny
     least.width =
         std::max(smallest, static_cast<int>(std::ceil(box.right * scale - slack)) - least.left);
     least.height = std::max(
         smallest, static_cast<int>(std::ceil((top_edge - box.bottom) * scale - slack)) - least.top);
+    check_size(least.width, least.height);
   }
   double left = least.left, top = least.top, right = least.left + least.width,
          bottom = least.top + least.height;

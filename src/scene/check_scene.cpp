@@ -246,4 +246,13 @@ void check_scene(const Scene& scene) {
     check_budget(&Budget::scene, static_cast<double>(json_of(scene).size()), "the scene has");
 }
 
+void check_pose_coordinates(const Deformation& deformation) {
+  for (const Points& segment : deformation.pose.segments)
+    for (const Complex& z : segment) check_point("the posed cage", z);
+  for (size_t i = 0; i < deformation.pins.size(); ++i)
+    check_point(numbered("pin", i), deformation.pins[i].pose);
+  for (size_t i = 0; i < deformation.strokes.size(); ++i)
+    for (const Complex& z : deformation.strokes[i].pose) check_point(numbered("stroke", i), z);
+}
+
 }  // namespace holomorph

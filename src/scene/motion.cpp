@@ -347,9 +347,12 @@ const MotionInterval* Motion::interval_from(size_t key) {
   double rotation = shape_at(key).logarithm.imag().mean();
   if (first < key) rotation -= rotation_after(first);
   std::vector<MotionKey> keys;
+  std::vector<Pose> poses;  // without handles that the method does not use
+  poses.reserve(last - first + 1);
   for (size_t k = first; k <= last; ++k) {
     const Key& own = keys_[k];
-    keys.push_back({own.solution, own.extremes, &own.pose, &own.f, rotation, own.time});
+    poses.push_back(used_by(method_named(prepared_->method), own.pose));
+    keys.push_back({own.solution, own.extremes, &poses.back(), &own.f, rotation, own.time});
     if (k < last) rotation += rotation_after(k);
   }
   const size_t at = key - first;

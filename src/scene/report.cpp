@@ -6,7 +6,7 @@
 #include "core/cauchy/cauchy.h"
 #include "core/clock.h"
 #include "core/maps/argument.h"
-#include "core/maps/injectivity.h"
+#include "core/maps/visible_folds.h"
 
 namespace holomorph {
 namespace {
@@ -93,12 +93,22 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
       return values;
     };
     report.map.zeros.clear();
-    for (const Zero& zero : zeros_of(mesh, places.empty() ? mesh.vertices : places, map.fz, fz_at))
+    int windings = 0;
+    for (const Zero& zero :
+         zeros_of(mesh, places.empty() ? mesh.vertices : places, map.fz, fz_at)) {
       report.map.zeros.push_back(zero.position);
+      windings += zero.multiplicity;
+    }
+    // The boundary of a conformal map turns once more for each zero, also where the mesh is too
+    // coarse to show it, and a boundary that turns more than once crosses itself.
+    if (map.fzbar.isZero(0)) {
+      report.map.turning_number = 1 + windings;
+      if (windings != 0) report.map.simple_boundary = false;
+    }
   }
   report.least_in_triangles = linear.min_sigma;
   report.most_in_triangles = linear.max_sigma;
-  report.folds_visibly = injectivity_of(mesh, map.f).folds();
+  report.folds_visibly = !visible_folds(mesh, map.f, injectivity_of(mesh, map.f)).empty();
   const double length = perimeter(outline_of(frame.deformation.rest)) / (2 * kPi);
   report.smoothness_energy = smoothness(mesh, prepared.rest.derivative_samples, map, length);
   report.isometric_energy = isometric_energy_of(mesh, map.f);

@@ -25,7 +25,7 @@ struct SceneReport {
   MapReport map;
   bool in_triangles = false;
   double least_in_triangles = 1, most_in_triangles = 1;  ///< stretches of the drawn triangles
-  bool folds_visibly = false;  ///< by the editor's criterion, which ignores specks
+  bool folds_visibly = false;  ///< as in the editor, if the picture were opaque
 };
 
 /// Measures a frame of a scene's map at the mesh's vertices. Between keyframes, a map that is

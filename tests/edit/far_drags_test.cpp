@@ -1,9 +1,10 @@
 // Pins that are dragged farther than the picture can follow give way.
 #include "core/cauchy/cauchy.h"
 #include "core/maps/distortion.h"
-#include "edit/visible_folds.h"
+#include "edit/fold_finder.h"
 #include "scene/prepared_map.h"
 #include "support/catch.h"
+#include "support/desk.h"
 #include "support/seeds.h"
 #include "support/shapes.h"
 
@@ -69,12 +70,36 @@ TEST_CASE("Far drags: pins give way before the picture is crushed or folds visib
       extreme += map.extremes->largest > 10 || map.extremes->smallest < 0.0005;
       const Mesh& drawn = *prepared->mesh;
       CHECK(drawn.vertices.size() > 4000);
-      folded += !visible_folds(drawn, map.f, std::vector<char>(drawn.triangles.size(), 1)).empty();
+      folded += !visible_folds(drawn, map.f, injectivity_of(drawn, map.f)).empty();
     }
   CAPTURE(drags, folded, extreme);
   // Half of the drags would stretch something more than tenfold if the pins were exact.
   CHECK(folded <= drags / 100);
   CHECK(extreme <= 1 + drags / 20);
+}
+
+TEST_CASE("A drag beyond the coordinates of files shows and stores nothing there") {
+  for (const char* method : {"pins", "harmonic"}) {
+    TestWorkspace desk(shapes::rectangle(400, 200));
+    Deformation start = desk.workspace.shown.deformation();
+    start.method = method;
+    start.pins.push_back({{100, 100}, {100, 100}, {}, {}});
+    desk.workspace.commit("Pin", start);
+    desk.update();
+    INFO(method);
+    Deformation far = start;
+    (far.method == "pins" ? far.pins[0].pose : far.pose.segments[0][0]) = {3e8, 50};
+    desk.workspace.shown.preview = far;
+    desk.update();
+    CHECK_FALSE(desk.workspace.shown.preview);
+    CHECK(desk.workspace.shown.deformation() == start);
+    CHECK_THAT(desk.workspace.messages.toasts.back().text, Catch::Contains("larger than 1e8"));
+    CHECK_FALSE(desk.workspace.commit("Drag", far));
+    CHECK(desk.workspace.shown.deformation() == start);
+    desk.workspace.shown.preview = start;
+    desk.update();
+    CHECK(desk.workspace.shown.preview);
+  }
 }
 
 }  // namespace holomorph::far_drags_test

@@ -6,6 +6,7 @@
 #include "scene/formats/scene_json.h"
 #include "scene/live_map.h"
 #include "scene/mirror.h"
+#include "scene/timed_map.h"
 #include "support/catch.h"
 #include "support/complaint.h"
 
@@ -58,6 +59,28 @@ TEST_CASE("Keyframes survive writing and reading, whatever their structure") {
   scene.animation_extra = R"({"loop":true})";
   CHECK(scene_from_json(json_of(scene), "s.json") == scene);
   CHECK(json_of(scene_of(bar())).find("animation") == std::string::npos);
+}
+
+TEST_CASE("Another method in a file changes no key, and no position of a handle") {
+  Deformation deformation = keyed();
+  deformation.keyframes[1].turns = 1;
+  deformation.keyframes[2].pose.pins[0].turn = 7;
+  deformation.strokes.push_back({{{20, 20}, {60, 30}}, {{20, 25}, {60, 40}}, {}});
+  for (Keyframe& key : deformation.keyframes) key.pose.strokes = {deformation.strokes[0].pose};
+  for (const Method& method : methods()) {
+    INFO(method.id);
+    deformation.method = method.id;
+    const Deformation read =
+        scene_from_json(json_of(scene_of(deformation)), "s.json").deformation();
+    CHECK(read == deformation);
+    // Nor does the map at a time.
+    TimedMap timed(read);
+    for (const Keyframe& key : read.keyframes) {
+      const TimedFrame frame = timed.frame(key.time);
+      REQUIRE(frame.pose);
+      CHECK(whole_pose_of(frame.deformation) == key.pose);
+    }
+  }
 }
 
 TEST_CASE("Missing parts of a keyframe are at rest") {

@@ -29,6 +29,17 @@ int flipped_triangles(const Mesh& mesh, const VectorXc& f) {
   return count;
 }
 
+bool is_immersion(const Mesh& mesh, const VectorXc& f) {
+  if (flipped_triangles(mesh, f) > 0) return false;
+  VectorXd angles = VectorXd::Zero(f.size());
+  for (const Triangle& t : mesh.triangles)
+    for (size_t k = 0; k < 3; ++k)
+      angles[t[k]] +=
+          std::arg(times(f[t[(k + 2) % 3]] - f[t[k]], std::conj(f[t[(k + 1) % 3]] - f[t[k]])));
+  for (const int v : mesh.boundary) angles[v] = 0;
+  return angles.maxCoeff() < 3 * kPi;
+}
+
 bool MapReport::locally_injective() const {
   return zeros.empty() && flipped_triangles == 0 && std::abs(turning_number - 1) < 0.01;
 }
@@ -54,7 +65,7 @@ MapReport report_of(const Mesh& mesh, const SampledMap& map) {
   report.flipped_triangles = flipped_triangles(mesh, map.f);
   Polygon image{{}, mesh.starts};
   for (const int v : mesh.boundary) image.points.push_back(map.f[v]);
-  report.turning_number = turning_number(image, part_count(mesh));
+  report.turning_number = is_immersion(mesh, map.f) ? 1 : turning_number(image, part_count(mesh));
   report.simple_boundary = !self_crossing(image).has_value();
   return report;
 }

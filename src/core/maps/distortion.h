@@ -19,11 +19,17 @@ Distortion distortion_of(const SampledMap& map);
 /// The number of triangles that are flipped, degenerate or not finite when the vertices are at f.
 int flipped_triangles(const Mesh& mesh, const VectorXc& f);
 
+/// Whether nothing folds: no triangle is flipped, and the triangles around each inner vertex close
+/// after one turn. Cost: linear.
+bool is_immersion(const Mesh& mesh, const VectorXc& f);
+
 /// Measurements of a whole map on a mesh.
 struct MapReport {
   double max_k = 0, min_sigma = 0, max_sigma = 0;
-  Points zeros;               ///< centers of rest triangles that contain zeros of f_z
-  double turning_number = 0;  ///< of the boundary's image
+  Points zeros;  ///< centers of rest triangles that contain zeros of f_z
+  /// Of the boundary's image; 1 for an immersion, also where the triangles around a vertex of the
+  /// boundary make more than a turn, so that the picture overlaps itself there.
+  double turning_number = 0;
   bool simple_boundary = true;
   int flipped_triangles = 0;
   /// Whether no fold was found: f_z has no zeros, the turning number is one, and no triangle is

@@ -132,19 +132,6 @@ class SimplifiedPolygon {
   Points points_;
 };
 
-/// Whether nothing folds: no triangle is flipped, and the triangles around each inner vertex close
-/// after one turn.
-bool is_immersion(const Mesh& mesh, const VectorXc& f) {
-  if (flipped_triangles(mesh, f) > 0) return false;
-  VectorXd angles = VectorXd::Zero(f.size());
-  for (const Triangle& t : mesh.triangles)
-    for (size_t k = 0; k < 3; ++k)
-      angles[t[k]] +=
-          std::arg(times(f[t[(k + 2) % 3]] - f[t[k]], std::conj(f[t[(k + 1) % 3]] - f[t[k]])));
-  for (const int v : mesh.boundary) angles[v] = 0;
-  return angles.maxCoeff() < 3 * kPi;
-}
-
 }  // namespace
 
 Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {

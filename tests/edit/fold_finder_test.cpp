@@ -1,5 +1,5 @@
 // Folds count only where an eye can see them.
-#include "edit/visible_folds.h"
+#include "edit/fold_finder.h"
 
 #include "core/mesh/mesher.h"
 #include "support/catch.h"
@@ -7,7 +7,7 @@
 #include "support/seeds.h"
 #include "support/shapes.h"
 
-namespace holomorph::visible_folds_test {
+namespace holomorph::fold_finder_test {
 
 namespace {
 
@@ -54,7 +54,7 @@ TEST_CASE("A fold is found where the picture is opaque, and ignored where it is 
     const Image seen = with_rectangle(400, around), faint = with_rectangle(400, around, 10),
                 unseen = with_rectangle(400, away);
     const auto folds = [&](const Image* picture) {
-      return visible_folds(mesh, f, visible_triangles(mesh, picture));
+      return visible_folds(mesh, f, injectivity_of(mesh, f), visible_triangles(mesh, picture));
     };
     REQUIRE(folds(nullptr).size() == 1);
     REQUIRE(folds(&seen).size() == 1);
@@ -95,9 +95,9 @@ TEST_CASE("A fold in a transparent part is no alarm, although the picture lies o
 TEST_CASE("A fold smaller than a pixel is ignored") {
   const Mesh mesh = domain_mesh(polygon_cage(shapes::rectangle(4, 4)), {800});
   const VectorXc f = folded_at(mesh, {2, 2}, 0.4);
-  CHECK(visible_folds(mesh, f, visible_triangles(mesh, nullptr)).empty());
+  CHECK(visible_folds(mesh, f, injectivity_of(mesh, f)).empty());
   const VectorXc large = 100 * f;
-  CHECK(visible_folds(mesh, large, visible_triangles(mesh, nullptr)).size() == 1);
+  CHECK(visible_folds(mesh, large, injectivity_of(mesh, large)).size() == 1);
 }
 
-}  // namespace holomorph::visible_folds_test
+}  // namespace holomorph::fold_finder_test

@@ -1,5 +1,4 @@
-// Folds in transparent parts, or smaller than a pixel, are no reason for an alarm.
-#include "edit/visible_folds.h"
+#include "core/maps/visible_folds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,15 +6,11 @@
 #include <map>
 #include <numeric>
 
-#include "core/maps/injectivity.h"
-#include "edit/picking.h"
-
 namespace holomorph {
 namespace {
 
 constexpr double kPixel = 1;        // plane units squared
 constexpr double kFewFlips = 1e-4;  // as a part of the area: what a mesh flips at a branch point
-constexpr int kSamplesPerSide = 8;  // of a triangle
 
 double twice_area(const VectorXc& f, const Triangle& t) {
   return cross(f[t[1]] - f[t[0]], f[t[2]] - f[t[0]]);
@@ -49,26 +44,11 @@ class Sets {
 
 }  // namespace
 
-std::vector<char> visible_triangles(const Mesh& mesh, const Image* picture) {
-  std::vector<char> visible(mesh.triangles.size(), 1);
-  if (!picture) return visible;
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [i, j, k] = mesh.triangles[t];
-    const Points& z = mesh.vertices;
-    const Complex a = z[static_cast<size_t>(i)], b = z[static_cast<size_t>(j)],
-                  c = z[static_cast<size_t>(k)];
-    bool any = false;
-    for (int u = 0; u <= kSamplesPerSide && !any; ++u)
-      for (int v = 0; u + v <= kSamplesPerSide && !any; ++v)
-        any = is_visible_at(*picture, a + (b - a) * (static_cast<double>(u) / kSamplesPerSide) +
-                                          (c - a) * (static_cast<double>(v) / kSamplesPerSide));
-    visible[t] = any;
-  }
-  return visible;
-}
-
-std::vector<Fold> visible_folds(const Mesh& mesh, const VectorXc& f,
+std::vector<Fold> visible_folds(const Mesh& mesh, const VectorXc& f, const Injectivity& found,
                                 const std::vector<char>& visible) {
+  const auto is_visible = [&](int triangle) {
+    return visible.empty() || visible[static_cast<size_t>(triangle)] != 0;
+  };
   // Triangles that share a vertex belong to the same region.
   Sets sets(mesh.vertices.size());
   std::vector<int> flipped;
@@ -86,7 +66,7 @@ std::vector<Fold> visible_folds(const Mesh& mesh, const VectorXc& f,
   };
   std::map<int, Region> regions;
   for (const int t : flipped) {
-    if (!visible[static_cast<size_t>(t)]) continue;
+    if (!is_visible(t)) continue;
     const Triangle& triangle = mesh.triangles[static_cast<size_t>(t)];
     Region& region = regions[sets.root(triangle[0])];
     const double area = -twice_area(f, triangle) / 2;
@@ -107,37 +87,11 @@ std::vector<Fold> visible_folds(const Mesh& mesh, const VectorXc& f,
         region.fold.radius = std::max(region.fold.radius, std::abs(f[v] - region.fold.at));
     folds.push_back(std::move(region.fold));
   }
-  return folds;
-}
-
-const std::vector<Fold>& FoldFinder::folds(const LiveMap& map,
-                                           const std::shared_ptr<const Image>& picture) {
-  if (!map.has_map()) {
-    folds_.clear();
-    f_.resize(0);
-    return folds_;
-  }
-  const std::shared_ptr<const Mesh> mesh = map.prepared()->mesh;
-  const bool same_picture = mesh == mesh_ && picture == picture_;
-  if (same_picture && f_.size() == map.map().f.size() && f_ == map.map().f) return folds_;
-  if (!same_picture) {
-    mesh_ = mesh;
-    picture_ = picture;
-    visible_ = visible_triangles(*mesh, picture.get());
-  }
-  f_ = map.map().f;
-  find(map);
-  return folds_;
-}
-
-void FoldFinder::find(const LiveMap& map) {
-  folds_ = visible_folds(*mesh_, f_, visible_);
   // Around a branch point, the picture winds more than once, with hardly a flipped triangle.
-  const Injectivity& found = map.injectivity();
-  if (flipped_share(*mesh_, f_) > kFewFlips || !found.folds() || found.folds_at.empty()) return;
-  const auto near = locate(*mesh_, as_span(f_), found.folds_at.front());
-  if (near && visible_[static_cast<size_t>(near->triangle)])
-    folds_.push_back({found.folds_at.front(), 0, {}});
+  if (flipped_share(mesh, f) > kFewFlips || !found.folds() || found.folds_at.empty()) return folds;
+  const auto near = locate(mesh, as_span(f), found.folds_at.front());
+  if (near && is_visible(near->triangle)) folds.push_back({found.folds_at.front(), 0, {}});
+  return folds;
 }
 
 }  // namespace holomorph

@@ -1,0 +1,114 @@
+// What a report says of one map never contradicts itself: zeros, turning number, boundary, flipped
+// triangles, visible folds, status and note.
+#include "core/maps/method.h"
+#include "core/mesh/mesher.h"
+#include "scene/keyframes.h"
+#include "scene/report.h"
+#include "support/catch.h"
+#include "support/seeds.h"
+#include "support/shapes.h"
+
+namespace holomorph::contradictions_test {
+
+namespace {
+
+/// A random star with pins, corners and an outline, posed gently or wildly.
+Deformation random_deformation(const Method& method, std::mt19937& random) {
+  Deformation deformation;
+  const Cage cage = polygon_cage(shapes::star(6 + static_cast<int>(random() % 12), 0.6, random()));
+  deformation.rest = deformation.pose = cage;
+  deformation.method = method.id;
+  const double size = box_of(outline_of(cage)).diagonal(),
+               reach = std::pow(10, -3 + 2.7 * std::abs(random_complex(random).real())) * size;
+  if (method.uses_pins) {
+    const Mesh mesh = domain_mesh(cage, {200});
+    for (size_t i = 0; i < 4; ++i) {
+      Pin pin;
+      pin.rest = mesh.vertices[random() % mesh.vertices.size()];
+      if (std::ranges::any_of(deformation.pins, [&](const Pin& other) {
+            return std::abs(other.rest - pin.rest) < 0.05 * size;
+          }))
+        continue;
+      pin.pose = pin.rest + reach * random_complex(random);
+      deformation.pins.push_back(pin);
+    }
+  }
+  if (method.uses_corners)
+    for (Index v = 0; v < cage.size(); ++v) {
+      const auto turn = [&] { return 6 * reach / size * random_complex(random).real(); };
+      const double before = turn(), after = turn();
+      deformation.corners.push_back({v, {before, after, 1}});
+    }
+  if (method.uses_outline) {
+    deformation.outline = shapes::star(10 + static_cast<int>(random() % 20), 0.7, random());
+    for (Complex& z : deformation.outline) z = size / 200 * z;
+  }
+  if (!method.uses_pins || random() % 3 == 0)
+    for (Points& segment : deformation.pose.segments)
+      for (Complex& z : segment) z += reach * random_complex(random);
+  return deformation;
+}
+
+void check_report(const SceneReport& report) {
+  const MapReport& map = report.map;
+  const bool turns_once = std::abs(map.turning_number - 1) < 0.01;
+  const auto says = [&](const char* what) { return report.note.find(what) != std::string::npos; };
+  INFO(text_of(report));
+  if (report.status == "certified") {
+    CHECK(map.zeros.empty());
+    CHECK(turns_once);
+    CHECK(map.flipped_triangles == 0);
+    CHECK_FALSE(report.folds_visibly);
+  }
+  // Nothing folds if nothing was found at all.
+  if (map.locally_injective()) CHECK_FALSE(report.folds_visibly);
+  if (report.folds_visibly) CHECK_FALSE((says("No folds") || says("no folds")));
+  if (says("The picture folds")) CHECK_FALSE(map.locally_injective());
+  // Each zero adds a turn to the boundary; where triangles are flipped, the mesh is too coarse to
+  // tell.
+  if (map.flipped_triangles == 0 && report.in_triangles == false) {
+    if (!map.zeros.empty()) CHECK_FALSE(turns_once);
+    if (map.zeros.empty()) CHECK(turns_once);
+  }
+  if (map.simple_boundary && map.flipped_triangles == 0) CHECK(map.locally_injective());
+}
+
+/// Checks the report of a random pose, and that of a frame between it and the rest.
+void check_reports(const Method& method, unsigned seed) {
+  INFO(method.id << ", seed " << seed);
+  std::mt19937 random(seed);
+  Deformation deformation = random_deformation(method, random);
+  try {
+    TimedMap alone(deformation);
+    check_report(report_of(alone, alone.frame({})));
+  } catch (const Error&) {
+    return;  // this pose has no map
+  }
+  if (method.uses_outline && !soaks()) return;  // takes long
+  deformation.keyframes.push_back({0, whole_pose_of(at_rest(deformation)), Ease::linear});
+  deformation.keyframes.push_back({1, whole_pose_of(deformation)});
+  TimedMap film(deformation);
+  check_report(report_of(film, film.frame(0.6)));
+}
+
+}  // namespace
+
+TEST_CASE("Reports of outlines with zeros next to the boundary do not contradict themselves") {
+  for (const unsigned seed : seeds_of("contradictions, outline", {139}))
+    check_reports(method_named("outline"), seed);
+}
+
+TEST_CASE("Reports of angle maps with loops at corners do not contradict themselves") {
+  for (const unsigned seed : seeds_of("contradictions, angles", {1}))
+    check_reports(method_named("angles"), seed);
+}
+
+TEST_CASE("Reports of other maps do not contradict themselves") {
+  // In the fixed case, the sheet makes more than a turn at a vertex of the boundary.
+  for (const unsigned seed : seeds_of("contradictions", {2123583586u}))
+    for (const Method& method : methods())
+      if (soaks() ? !method.uses_outline && !method.uses_corners : method.id == "sheet")
+        check_reports(method, seed);
+}
+
+}  // namespace holomorph::contradictions_test
