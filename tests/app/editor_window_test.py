@@ -1018,8 +1018,18 @@ class EditorWindowTest(WindowCase):
             editor.wait(lambda s: s["pictured"] and not s["modified"], "the picture")
             editor.key("ctrl+q")
             editor.process.wait(timeout=10)
-        with Editor([scene], home=home) as editor:  # the answer is remembered
-            editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture")
+        os.mkdir(os.path.join(self.work, "other"))
+        other = self.square_scene(os.path.join(self.work, "other"), "../gecko.png")
+        for each in (scene, other):  # the answer is remembered for all scenes
+            with Editor([each], home=home) as editor:
+                editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture")
+        path = os.path.join(home, "config/holomorph/preferences.json")
+        preferences = load(path)
+        self.assertIn(self.work, preferences.pop("trusted"))
+        with open(path, "w") as file:
+            json.dump(preferences, file)
+        with Editor([other], home=home) as editor:
+            editor.wait(lambda s: s["question"] == "Files from other folders", "the question, as at first")
         with Editor(["--allow-outside", scene]) as editor:
             editor.wait(lambda s: s["pictured"] and not s["asking"], "the picture without a question")
 

@@ -185,7 +185,11 @@ class WindowTest(WindowCase):
     def test_samples_are_copies(self):
         giraffe = load(os.path.join(SOURCE, "assets/giraffe.json"))
         with Editor([]) as editor:
-            editor.wait(lambda s: s["empty"], "the welcome page")
+            state = editor.wait(lambda s: s["empty"], "the welcome page")
+            scenes = [name for name in os.listdir(os.path.join(SOURCE, "assets")) if name.endswith(".json")]
+            titles = [name[:-5].capitalize() for name in scenes]
+            self.assertEqual(len(titles), 9)
+            self.assertLessEqual(set(titles), set(state["items"]))
             editor.press_item("Giraffe")
             editor.wait(lambda s: s["cage_points"] == len(giraffe["cage"]["rest"]), "the giraffe")
             editor.key("ctrl+a")
@@ -235,8 +239,7 @@ class WindowTest(WindowCase):
             exported = numpy.asarray(Image.open(target))
             rendered = numpy.asarray(Image.open(os.path.join(self.work, "render.png")))
             self.assertEqual(exported.shape, rendered.shape)
-            # The editor's operators are in single precision.
-            self.assertLessEqual(numpy.abs(exported.astype(int) - rendered).max(), 2)
+            self.assertTrue((exported == rendered).all())
             editor.wait(lambda s: not s["exporting"], "the end of the export")
             os.remove(target)
             editor.key("ctrl+shift+e")  # again, without a question
@@ -572,6 +575,17 @@ class WindowTest(WindowCase):
             for (x, y), expected in zip(turned, [[60, 260], [60, 160], [60, 60], [260, 60], [260, 260]]):
                 self.assertAlmostEqual(x, expected[0], delta=2)
                 self.assertAlmostEqual(y, expected[1], delta=2)
+            editor.key("ctrl+z")
+            # With Shift, it turns in steps of 15 degrees: a drag by 50 degrees turns by 45.
+            editor.wait(lambda s: s["step"] == 0, "the square")
+            editor.xdotool("keydown", "Shift_L")
+            angle = math.radians(90 - 50)
+            editor.drag(knob, (middle[0] + reach * math.cos(angle), middle[1] + reach * math.sin(angle)))
+            editor.xdotool("keyup", "Shift_L")
+            editor.wait(lambda s: s["step"] == 1 and not s["gesture"], "turned points")
+            edge = pose(editor, "stepped.json")
+            turn = math.degrees(math.atan2(edge[1][1] - edge[0][1], edge[1][0] - edge[0][0]))
+            self.assertAlmostEqual(turn, -45, places=6)
             editor.key("ctrl+z")
             editor.key("ctrl+d")
             # With symmetry, the other side moves as a mirror image.

@@ -90,6 +90,9 @@ class CommandLine(Case):
     # ---- scenes and pictures -----------------------------------------------------------------
 
     def test_samples_and_new_scenes_fulfil_the_schema(self):
+        scenes = [name for name in os.listdir(os.path.join(SOURCE, "assets")) if name.endswith(".json")]
+        self.assertEqual(sorted(scenes), sorted(name + ".json" for name in SAMPLES))
+        self.assertEqual(len(SAMPLES), 9)
         for name in SAMPLES:
             sample = json.load(open(os.path.join(SOURCE, "assets", name + ".json")))
             jsonschema.validate(sample, SCHEMA)
@@ -387,6 +390,26 @@ class CommandLine(Case):
         vertices = numpy.array([[float(x) for x in line[1:3]] for line in lines if line[:1] == ["v"]])
         return vertices, [[int(word.split("/")[0]) - 1 for word in line[1:]] for line in lines if line[:1] == ["f"]]
 
+    def test_keyframes_work_with_every_method(self):
+        scene, points = self.keyed_scene(), self.write("p.csv", "22,16\n42,24\n")
+        scene["pins"] = [{"rest": [20, 20]}, {"rest": [40, 20]}]
+        scene["strokes"] = [{"rest": [[20, 25], [40, 25]]}]
+        scene["corners"] = [{"vertex": k} for k in range(4)]
+        around = numpy.linspace(0, 2 * math.pi, 41)[:-1]
+        scene["outline"] = [[30 + 25 * math.cos(t), 20 + 20 * math.sin(t)] for t in around]
+        scene["animation"]["frames_per_second"] = 2
+        scene["keyframes"][1]["pose"].update(pins=[{"pose": [24, 20]}, {"pose": [42, 26]}],
+                                             strokes=[[[22, 25], [42, 30]]],
+                                             corners=[{"before": 0.1 * k, "after": 0.2} for k in range(4)])
+        for method in SCHEMA["$defs"]["layer"]["properties"]["method"]["properties"]["id"]["enum"]:
+            with self.subTest(method):
+                path = self.write("s.json", {**scene, "method": {"id": method}})
+                rows = self.good("map", path, "--points", points, "--frames", "0..2").stdout.splitlines()[1:]
+                images = numpy.array([[float(x) for x in row.split(",")[1:3]] for row in rows]).reshape(3, 2, 2)
+                self.assertTrue(numpy.isfinite(images).all())
+                moves = numpy.abs(numpy.diff(images, axis=0)).max(axis=(1, 2))
+                self.assertGreater(moves.min(), 1)
+
     def test_blended_frames_are_measured_in_their_triangles(self):
         scene = self.keyed_scene()
         bent = [[[15, 10]], [[70, 20]], [[40, 60]], [[0, 35]]]
@@ -675,6 +698,10 @@ class CommandLine(Case):
         self.assertLess(counts[0], counts[2])
         self.good("new", picture, "--out", self.path("filled.json"), "--hole-width", 60)
         self.assertNotIn("holes", json.load(open(self.path("filled.json")))["cage"])
+        pixels[90:92, 215:228] = 255  # 26 pixels, 0.054 %
+        Image.fromarray(pixels).save(picture)
+        self.assertNotIn("outside", self.good("new", picture, "--out", self.path("small.json"), "--parts").stderr)
+        self.assertEqual(len(json.load(open(self.path("small.json")))["cage"]["parts"]), 1)
         # A larger one is inside the cage, or has an outline of its own.
         pixels[90:110, 215:235] = 255
         Image.fromarray(pixels).save(picture)
@@ -769,7 +796,10 @@ class CommandLine(Case):
             process.send_signal(signal.SIGKILL)
             process.wait()
             self.assertEqual(open(out).read(), whole)
-
+            for name in set(os.listdir(self.folder)) - {"x.obj"}:
+                self.assertRegex(name, r"^\.holomorph-[0-9a-f]{8}$")
+        self.good("export", scene, "--format", "obj", "--out", out)
+        self.assertEqual(os.listdir(self.folder), ["x.obj"], "what was left behind is removed")
 
     # ---- pictures from other programs ----------------------------------------------------------
 

@@ -60,7 +60,8 @@ FEATURES = {
     "a small frame": ("", "<g transform='scale(1e-9)'><path d='M2e11 4e11H9e11' stroke='#123' stroke-width='1e11'/></g>"),
     "names with a prefix": ("prefix", "<s:rect x='200' y='150' width='800' height='600' fill='#24c'/>"),
     "a copy of a viewport with a size": ("", "<defs><svg id='v'><rect width='900' height='900' fill='#284'/></svg></defs>"
-                                         "<use href='#v' x='300' y='300' width='300' height='200'/>")
+                                         "<use href='#v' x='300' y='300' width='300' height='200'/>"),
+    "a filter": ("", "<filter id='f'><feGaussianBlur stdDeviation='20'/></filter><g filter='url(#f)'>" + BLUE + "</g>")
 }
 
 
@@ -264,6 +265,7 @@ class Drawings(Case):
             <defs><foreignObject><iframe srcdoc='x'/></foreignObject><pattern id='p'><embed src='javascript:1'/></pattern></defs>
             <a xlink:href='javascript:alert(1)'><text onclick='a()'>T<set attributeName='xlink:href' to='javascript:1'/></text></a>
             <image href='http://e.x/i.png' width='9' height='9'/><image href='/etc/passwd' width='9' height='9'/>
+            <a href='https://e.y/page'><text>Page</text></a>
             <use href='http://e.x/u.svg#a'/><rect ONCLICK='a()' width='99' height='99' filter='url(http://e.x/f#a)'/></svg>""")
         path = self.write("a.json", {"format": "holomorph", "version": 1, "image": {"file": "a.svg"},
                                      "cage": {"rest": [[p] for p in ([5, 5], [890, 5], [890, 890])]}})
@@ -272,8 +274,35 @@ class Drawings(Case):
             text = file.read().lower()
         for word in ("script", "onclick", "onload", "e.x", "passwd", "foreignobject", "iframe", "embed", "<set"):
             self.assertNotIn(word, text)
+        self.assertIn("https://e.y/page", text, "links to web pages stay")
         self.assertIn("its linked pictures are left out", said)
         self.assertIn("its animation is left out", said)
+
+    def test_a_drawing_shows_no_other_file(self):
+        Image.new("RGB", (90, 90), (255, 0, 0)).save(self.path("red.png"))
+        red = self.path("red.png")
+        start = "<svg xmlns='http://www.w3.org/2000/svg' width='90' height='90'>"
+        self.write("red.svg", start + "<rect id='r' width='90' height='90' fill='#f00'/></svg>")
+        names = ("red.png", "./red.png", red, "file:" + red, "file://" + red, "red.svg", "red.svg#r",
+                 "file://" + self.path("red.svg#r"))
+        images = "".join(f"<{tag} href='{name}' width='90' height='90'/>" for tag in ("image", "use") for name in names)
+        self.write("a.svg", f"<?xml-stylesheet href='red.css'?>{start}<style>@import 'red.css';</style>"
+                   f"<rect width='90' height='90'/>{images}</svg>")
+        self.write("red.css", "rect { fill: #f00 }")
+        path = self.write("a.json", {"format": "holomorph", "version": 1, "image": {"file": "a.svg"},
+                                     "cage": {"rest": []}})
+        self.good("render", path, "--allow-outside", "--out", self.path("a.png"))
+        self.assertEqual(numpy.asarray(Image.open(self.path("a.png")))[..., :3].max(), 0, "all of it is black")
+
+    def test_drawings_are_opened_in_their_size_between_1024_and_4096_pixels(self):
+        for width, height, pixels in (("2000", "1000", (2000, 1000)), ("20in", "10in", (1920, 960)),
+                                      ("30", "60", (512, 1024)), ("9000", "900", (4096, 410))):
+            self.write("a.svg", f"<svg xmlns='http://www.w3.org/2000/svg' width='{width}' height='{height}'>"
+                       "<rect width='9' height='9'/></svg>")
+            path = self.write("a.json", {"format": "holomorph", "version": 1, "image": {"file": "a.svg"},
+                                         "cage": {"rest": []}})
+            self.good("render", path, "--force", "--out", self.path("a.png"))
+            self.assertEqual(self.size_of("a.png"), pixels)
 
     def test_a_small_drawing_keeps_its_size(self):
         self.write("icon.svg", "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 24 12' width='24' height='12'><circle cx='6' cy='6' r='5'/></svg>")
@@ -326,6 +355,8 @@ class Drawings(Case):
             self.assertEqual([name for name in names if "Original" not in name], [layer["name"] for layer in scene["layers"]])
             ids = [element.get("id") for element in root.iter() if element.get("id")]
             self.assertEqual(len(ids), len(set(ids)))
+            self.assertLessEqual({"layer-1-g", "layer-3-g", "layer-5-g"}, set(ids), "the gradients of the drawings")
+            self.assertNotIn("g", ids)
 
     def test_motions_show_the_moment(self):
         w, h = 1100, 900

@@ -210,6 +210,7 @@ class Farm(Case):
         self.good(*here, "--film", self.path("f.WEBP"), "--rect", "-5,-5,60,50", "--only-write")
         with open(self.path("the frames/f.sbatch")) as file:
             script = file.read()
+        self.assertIn(" chunk=10 rounds=3\n", script)
         self.assertIn("--format webp", script)
         self.assertIn("--rect -5,-5,60,50", script)
         os.remove(self.path("the frames/f.sbatch"))

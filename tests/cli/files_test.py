@@ -8,6 +8,8 @@ import re
 import resource
 import shutil
 import signal
+import socket
+import socketserver
 import stat
 import subprocess
 import threading
@@ -346,6 +348,13 @@ class Files(Case):
         self.assertEqual(len(set(said.values())), 1, "the messages do not tell which of these files exist")
         scene["image"] = {"file": "../red.png"}
         self.good("info", self.write("in/s.json", scene), "--allow-outside")
+        # And surfaces.
+        shutil.copy(self.path("red.png"), self.path("in"))
+        scene.update(image={"file": "red.png"}, keyframes=[], method={"id": "outline"},
+                     outline=[[10, 10], [50, 10], [50, 30], [10, 30]])
+        for file in ("../leaf.obj", "../none.obj", "/dev/zero"):
+            scene["surface"] = {"file": file}
+            self.bad("info", self.write("in/s.json", scene), says="--allow-outside")
 
     def test_limits_are_named_and_can_be_raised(self):
         deep = self.write("deep.svg", "<svg>" + "<g>" * 5 + '<path d="M1 1L50 1L50 35Z"/>' + "</g>" * 5 + "</svg>")
@@ -366,6 +375,77 @@ class Files(Case):
                 asked = said.split(option + " ")[1].split()[0]
                 self.good(*words, option, asked)
         self.bad("info", self.scene, "--max-pixels", "-1", says="--max-pixels")
+
+    def test_limits_are_those_of_the_page_on_security(self):
+        with open(os.path.join(SOURCE, "SECURITY.md")) as file:
+            rows = re.findall(r"^\| .* \| ([\d,]+)[^|]*\| `(--max-\S+)` \|$", file.read(), re.M)
+        said = self.good("info", "--help").stdout
+        self.assertEqual(sorted(option for _, option in rows), sorted(re.findall(r"--max-\S+", said)))
+        for default, option in rows:
+            self.assertRegex(said, rf"{option} FLOAT .*; {default.replace(',', '')} .*by default")
+
+    def test_sides_have_at_most_16384_pixels(self):
+        for side, scale, fits in ((16384, 1, True), (4096, 4, True), (16385, 1, False), (3277, 5, False)):
+            for size in ((side, 1), (1, side)):
+                Image.new("RGBA", size, (200, 40, 40, 255)).save(self.path("long.png"))
+                scene = self.write("long.json", {"format": "holomorph", "version": 1, "image": {"file": "long.png"},
+                                                 "cage": {"rest": []}})
+                words = ["render", scene, "--scale", scale, "--force", "--out", self.path("o.png")]
+                if fits:
+                    self.good(*words)
+                    with Image.open(self.path("o.png")) as drawn:
+                        self.assertEqual(max(drawn.size), 16384)
+                else:
+                    self.bad(*words, says="16384")
+
+    def test_nothing_is_fetched_and_nothing_is_run(self):
+        """Files that refer to a server of the test, in every way that their formats have."""
+        seen = []
+        server = socketserver.TCPServer(("127.0.0.1", 0), lambda request, *_: seen.append(request.recv(999)))
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        at = "http://127.0.0.1:{}/".format(server.server_address[1])
+        self.write("a.svg", f"""<?xml-stylesheet href='{at}a.css'?><!DOCTYPE svg [<!ENTITY e SYSTEM '{at}e'>]>
+            <svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' width='90' height='90'
+            onload='fetch("{at}onload")'><style>@import url({at}b.css); @font-face{{font-family:f;src:url({at}f.ttf)}}
+            rect{{fill:url({at}g#g)}}</style><script href='{at}s.js'/><script>fetch("{at}script")</script>
+            <image href='{at}i.png' width='9' height='9'/><image xlink:href='{at}i.svg' width='9' height='9'/>
+            <use href='{at}u.svg#a'/><text font-family='f'>&e;</text>
+            <path d='M5 5H85V85Z' filter='url({at}f.svg#f)'/></svg>""")
+        self.write("a.obj", f"mtllib {at}a.mtl\ncsh touch {self.path('ran')}\ncall {self.path('ran.obj')}\n"
+                   "v 0 0 0\nv 9 0 0\nv 9 9 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/3\n")
+        self.write("a.mp4", f"#EXTM3U\n#EXT-X-TARGETDURATION:10\n#EXTINF:1,\n{at}a.ts\n#EXT-X-ENDLIST\n")
+        scene, out = self.keyed_scene(), self.path("out.svg")
+        for name in (at + "a.png", at + "a.mp4", at + "a.svg", "a.mp4"):
+            path = self.write("s.json", {**scene, "image": {"file": name}})
+            for words in ([], ["--allow-outside"]):
+                self.assertEqual(run("info", path, *words).returncode, 2, name)
+        self.good("new", self.path("a.svg"), "--out", self.path("svg.json"))
+        self.good("render", self.path("svg.json"), "--out", self.path("o.png"))
+        self.good("export", self.path("svg.json"), "--format", "drawing", "--out", out)
+        for option in ("--cage", "--outline"):
+            self.good("new", self.path("red.png"), option, self.path("a.svg"), "--force", "--out", self.path("n.json"))
+            self.good("new", self.path("red.png"), option, self.path("a.obj"), "--force", "--out", self.path("n.json"))
+        self.assertFalse(os.path.exists(self.path("ran")))
+        with socket.create_connection(server.server_address) as client:
+            client.send(b"the server works")
+            client.recv(1)  # until the server has seen it, and with it all that came before
+        server.shutdown()
+        server.server_close()
+        self.assertEqual(seen, [b"the server works"])
+
+    def test_the_exit_status_tells_whether_all_frames_are_there(self):
+        words = ["render", self.scene, "--frames", "0..3", "--missing", "--out", self.path("walk.png")]
+        frames = [self.path(f"walk-000{i}.png") for i in range(4)]
+        self.good(*words)
+        made = [os.stat(frame).st_mtime_ns for frame in frames]
+        self.good(*words)
+        self.assertEqual([os.stat(frame).st_mtime_ns for frame in frames], made)
+        os.remove(frames[2])
+        os.symlink(self.path("nowhere/2.png"), frames[2])  # cannot be written
+        self.assertEqual(run(*words).returncode, 1)
+        os.remove(frames[2])
+        self.good(*words)
+        self.assertTrue(os.path.isfile(frames[2]))
 
     def test_many_points_are_mapped_in_blocks(self):
         points = self.write("many.csv", "".join(f"{10 + i % 50},{5 + i // 50 % 30}\n" for i in range(3000)))

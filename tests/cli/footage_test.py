@@ -319,6 +319,11 @@ class Footage(Case):
                            ({"start": 1e9}, "/image/clip/start")):
             self.bad("info", self.scene("film.mp4", clip), says=says)
 
+    def test_frames_have_at_most_64_megapixels(self):
+        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "color=s=8002x8000:r=1:d=1", "-pix_fmt", "monow",
+                        "-c:v", "png", self.path("large.mkv")], check=True)
+        self.bad("info", self.scene("large.mkv"), says="more than 64 megapixels")
+
     def test_a_damaged_film_never_shows_a_frame_too_early(self):
         encode(self.path("film.mkv"), 60, 25, *H264, "-g", "10")
         whole = self.bytes_of("film.mkv")

@@ -118,6 +118,8 @@ class Meshes(Case):
                     wanted = self.positions(scene, "--time", time) / 100
                     self.assertLess(numpy.abs(frame[:len(wanted), :2] - wanted).max(), 1e-5, (seed, time))
                     self.assertTrue((frame[:, 2] == 0).all())
+                places = [node["translation"] for node in glb.json["nodes"] if node["name"].startswith("layer")]
+                self.assertEqual(places, [[0, 0, 0], [0, 0, 0.01]])  # a pixel apart
                 material = glb.json["materials"][glb.json["meshes"][1]["primitives"][0]["material"]]
                 self.assertEqual(material["pbrMetallicRoughness"]["baseColorFactor"], [1, 1, 1, 0.5])
                 self.assertIn("KHR_materials_unlit", material["extensions"])

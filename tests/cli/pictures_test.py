@@ -1,6 +1,7 @@
 # Pictures with more than 8 bits: those of other programs are read, and ours are read by them.
 import os
 import random
+import shutil
 import struct
 import subprocess
 import sys
@@ -327,6 +328,57 @@ class DeepPictures(Case):
         self.assertLessEqual(numpy.abs(self.floats("out.png") * 65535 - colors).max(), 0.51 * 257)
         self.bad("render", self.scene_of("in.png"), "--depth", "16", "--scale", "3", "--max-pixels", "0.7",
                  "--out", self.path("large.png"), says="--max-pixels")
+
+    def test_fine_pixels_count_five_times_and_those_of_png_seven_times(self):
+        megapixels = 0.03
+        with open(self.path("in.png"), "wb") as file:
+            file.write(png16(self.rng.integers(0, 65536, (150, 200, 4))))
+        self.oiio("in.png", "-d", "half", "-o", "in.exr")
+        for name, factor in (("in.png", 7), ("in.exr", 5)):
+            for more, fine in ((1.01, True), (0.99, False)):
+                done = self.good("render", self.scene_of(name), "--depth", "16", "--scale", "0.5", "--max-pixels",
+                                 megapixels * factor * more, "--out", self.path("out.png"), "--force")
+                self.assertEqual("it has 8 bits" not in done.stderr, fine, (name, more))
+        # What is drawn, of a picture with 8 bits, which counts once.
+        self.random_picture()
+        drawn = 4 * 37 * 4 * 53 / 1e6
+        words = ["render", self.scene_of("in.png"), "--depth", "16", "--scale", "4", "--out", self.path("drawn.png"),
+                 "--max-pixels"]
+        self.bad(*words, drawn * 4.99, says="--max-pixels")
+        self.good(*words, drawn * 5.01)
+
+    def test_other_pictures_have_8_bits(self):
+        samples = self.rng.integers(0, 65536, (20, 30, 4))
+        samples[..., 3] = 65535
+        with open(self.path("fine.png"), "wb") as file:
+            file.write(png16(samples))
+        for name in ("film-1.tif", "film-2.tif"):
+            self.oiio("fine.png", "-d", "uint16", "-o", name)
+        clip = {"format": "holomorph", "version": 1, "cage": {"rest": []},
+                "image": {"file": "film-1.tif", "clip": {"frames_per_second": 4}}}
+        fine = shutil.copy(self.scene_of("fine.png"), self.path("fine.json"))
+        for scene in (fine, self.scene_of("film-1.tif"), self.write("clip.json", clip)):
+            self.good("render", scene, "--depth", "16", "--out", self.path("out.png"), "--force")
+            self.oiio("out.png", "--ch", "R", "-d", "float", "-o", "red.tif")
+            steps = (65535 * numpy.asarray(Image.open(self.path("red.tif")))).round() % 257
+            self.assertEqual(bool(steps.any()), scene == fine)
+
+    def test_what_does_not_move_keeps_its_bits_beside_what_moves(self):
+        noise = self.rng.integers(0, 256, (90, 120, 4)).astype(numpy.uint8)
+        noise[..., 3] = 255
+        Image.fromarray(noise).save(self.path("in.png"))
+        rest = [[40, 30], [80, 30], [80, 60], [40, 60]]
+        for method in few_or_many(["cage", "harmonic"], ["cage", "mean_value", "harmonic", "arap"]):
+            pose = [[[x + self.rng.uniform(-9, 9), y + self.rng.uniform(-9, 9)]] for x, y in rest]
+            scene = self.write("scene.json", {"format": "holomorph", "version": 1, "image": {"file": "in.png"},
+                                              "cage": {"rest": [[p] for p in rest], "pose": pose},
+                                              "method": {"id": method}})
+            for name in ("out.png", "out.webp"):
+                self.good("render", scene, "--out", self.path(name), "--force")
+                moved = (numpy.asarray(Image.open(self.path(name)).convert("RGBA")) != noise).any(axis=2)
+                self.assertGreater(moved.sum(), 500)
+                moved[15:75, 25:95] = False
+                self.assertEqual(moved.sum(), 0, (method, name))
 
     def test_depths_that_a_format_does_not_have(self):
         self.random_picture()
