@@ -281,10 +281,10 @@ std::vector<OnionSkin> Workspace::onion_skins() const {
 void Workspace::refuse_far_preview() {
   if (!shown.preview) return;
   try {
-    check_pose_coordinates(*shown.preview);
+    check_coordinates(*shown.preview);
   } catch (const Error& error) {
     shown.preview.reset();
-    messages.complain(error);
+    messages.complain("Edit refused: " + std::string(error.what()), error.where());
   }
 }
 

@@ -246,13 +246,19 @@ void check_scene(const Scene& scene) {
     check_budget(&Budget::scene, static_cast<double>(json_of(scene).size()), "the scene has");
 }
 
-void check_pose_coordinates(const Deformation& deformation) {
-  for (const Points& segment : deformation.pose.segments)
-    for (const Complex& z : segment) check_point("the posed cage", z);
+void check_coordinates(const Deformation& deformation) {
+  const auto check_points = [](const std::string& what, const Points& points) {
+    for (const Complex& z : points) check_point(what, z);
+  };
+  for (const Points& segment : deformation.rest.segments) check_points("the cage", segment);
+  for (const Points& segment : deformation.pose.segments) check_points("the posed cage", segment);
   for (size_t i = 0; i < deformation.pins.size(); ++i)
-    check_point(numbered("pin", i), deformation.pins[i].pose);
-  for (size_t i = 0; i < deformation.strokes.size(); ++i)
-    for (const Complex& z : deformation.strokes[i].pose) check_point(numbered("stroke", i), z);
+    check_points(numbered("pin", i), {deformation.pins[i].rest, deformation.pins[i].pose});
+  for (size_t i = 0; i < deformation.strokes.size(); ++i) {
+    check_points(numbered("stroke", i), deformation.strokes[i].rest);
+    check_points(numbered("stroke", i), deformation.strokes[i].pose);
+  }
+  check_points("the outline", deformation.outline);
 }
 
 }  // namespace holomorph

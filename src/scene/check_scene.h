@@ -12,8 +12,8 @@ namespace holomorph {
 /// cage, and a few ns per number. The text is generated only if it might be too large.
 void check_scene(const Scene& scene);
 
-/// Throws Error{bad_input} if a posed handle has coordinates that are not finite or larger than
-/// kMaxCoordinate, as check_scene would. Cost: a few ns per number.
-void check_pose_coordinates(const Deformation& deformation);
+/// Throws Error{bad_input} if a handle or the outline has coordinates that are not finite or larger
+/// than kMaxCoordinate, as check_scene would. Cost: a few ns per number.
+void check_coordinates(const Deformation& deformation);
 
 }  // namespace holomorph

@@ -79,10 +79,15 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
   report.prepare_milliseconds = prepared.milliseconds;
   const MapReport linear = report_of_linear(mesh, map.f);
   report.map = report.in_triangles ? linear : report_of(mesh, map);
+  if (map.status == SampledMap::Status::certified && linear.flipped_triangles > 0) {
+    // The proof is of the smooth map, but the drawn picture folds.
+    report.status = name_of(SampledMap::Status::infeasible);
+    report.proved.reset();
+  }
   // Certified maps are proved to have no zeros.
   const bool proved = map.status == SampledMap::Status::certified;
   if (proved) report.map.zeros.clear();
-  const auto point_map = frame.pose && !proved ? timed.point_map(frame) : nullptr;
+  const auto point_map = proved ? nullptr : timed.point_map(frame);
   if (point_map && !point_map->is_linear_in_triangles()) {
     const Points& places = prepared.rest.derivative_samples;
     const auto fz_at = [&](const Points& points) {
@@ -100,10 +105,10 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
       windings += zero.multiplicity;
     }
     // The boundary of a conformal map turns once more for each zero, also where the mesh is too
-    // coarse to show it, and a boundary that turns more than once crosses itself.
+    // coarse to show it, and a single loop that turns more than once crosses itself.
     if (map.fzbar.isZero(0)) {
       report.map.turning_number = 1 + windings;
-      if (windings != 0) report.map.simple_boundary = false;
+      if (windings != 0 && mesh.starts.empty()) report.map.simple_boundary = false;
     }
   }
   report.least_in_triangles = linear.min_sigma;

@@ -1,4 +1,4 @@
-// The deformer evaluates poses. Maps between keyframes are known only on the mesh.
+// The deformer evaluates poses. Maps between keyframes come from the motion.
 #include "scene/timed_map.h"
 
 #include <algorithm>

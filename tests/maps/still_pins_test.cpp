@@ -31,6 +31,24 @@ Deformation random_pair(const std::string& method, std::mt19937& random) {
   return deformation;
 }
 
+/// A bar whose left end is held by two pins, while its right end swings from one side to the other.
+Deformation random_swing(const std::string& method, std::mt19937& random) {
+  Deformation deformation;
+  deformation.rest = deformation.pose = polygon_cage(shapes::rectangle(400, 80));
+  deformation.method = method;
+  for (const Complex z : {Complex(30, 40), Complex(80, 40), Complex(370, 40)})
+    deformation.pins.push_back({z, z, {}, {}});
+  const double reach = 0.6 + 0.6 * std::abs(random_complex(random).real());  // radians
+  for (const double side : {1.0, -1.0}) {
+    Pin& tail = deformation.pins[2];
+    const Complex center(80, 40);
+    tail.pose = center + std::polar(1.0, side * reach) * (tail.rest - center);
+    deformation.keyframes.push_back(
+        {side > 0 ? 0.0 : 1.0, whole_pose_of(deformation), Ease::linear});
+  }
+  return deformation;
+}
+
 void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) {
   int pairs = 0, sliding = 0;
   for (const unsigned seed : seeds) {
@@ -79,6 +97,51 @@ void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) 
 }
 
 }  // namespace
+
+TEST_CASE("A bar that swings from side to side keeps its held end") {
+  for (const unsigned seed : seeds_of("swings", {1}))
+    for (const std::string method : {"puppet", "bounded"}) {
+      INFO(method << ", seed " << seed);
+      std::mt19937 random(seed);
+      const Deformation swing = random_swing(method, random);
+      TimedMap timed(swing);
+      const Points still{swing.pins[0].rest, swing.pins[1].rest};
+      const VectorXc from = timed.at(timed.frame(0), still).f,
+                     to = timed.at(timed.frame(1), still).f;
+      for (const double u : {0.25, 0.5}) {
+        const TimedFrame at = timed.frame(u);
+        INFO("at " << u << ": " << at.between.note);
+        CHECK(at.between.status == SampledMap::Status::certified);
+        const VectorXc off = timed.at(at, still).f - (1 - u) * from - u * to;
+        CHECK(off.cwiseAbs().maxCoeff() <= 1e-4 * 408);
+      }
+    }
+}
+
+TEST_CASE("Frames between keys are finite and grow little, also where the picture turns around") {
+  for (const unsigned seed : seeds_of("turns between keys", {1}))
+    for (const std::string method : {"puppet", "bounded", "sheet"}) {
+      INFO(method << ", seed " << seed);
+      std::mt19937 random(seed);
+      Deformation pair = random_pair(method, random);
+      pair.keyframes[1].turns = 1 + static_cast<int>(seed % 2);
+      TimedMap timed(pair);
+      const auto largest_at = [&](double time) {
+        return timed.on_mesh(timed.frame(time)).extremes->largest;
+      };
+      if (!timed.on_mesh(timed.frame(0)).extremes || !timed.on_mesh(timed.frame(1)).extremes)
+        continue;
+      const double keys = std::max(largest_at(0), largest_at(1));
+      for (int frame = 1; frame < few_or_many(4, 16); ++frame) {
+        const SampledMap map = timed.frame(frame / static_cast<double>(few_or_many(4, 16))).between;
+        INFO("frame " << frame << ": " << map.note);
+        CHECK(map.f.allFinite());
+        if (map.status != SampledMap::Status::certified || method == "sheet") continue;
+        REQUIRE(map.extremes);
+        CHECK(map.extremes->largest <= 1.31 * keys);
+      }
+    }
+}
 
 TEST_CASE("Still pins of puppets move straight from key to key, or the note names one") {
   check_pairs("puppet", seeds_of("still pins of puppets", {41}));  // one that slides

@@ -102,14 +102,15 @@ MapOnMesh::Values LogInbetween::on_mesh(const Sum& sum) const {
 /// Tries to prove the extremes of the given keys, with a tolerance of 1 %. If a term is in L_psi,
 /// its nu is not in the basis. By convexity, the terms alone stay within the extremes, and only the
 /// change has to be small.
-bool LogInbetween::certify(const Sum& sum, std::span<const Key* const> within) const {
+bool LogInbetween::certify(const Sum& sum, std::span<const Key* const> within,
+                           double growth) const {
   constexpr double kTolerance = 0.01, kRounding = 1e-9;
   constexpr int kDepth = 8;
-  Bounds bounds{0, std::numeric_limits<double>::infinity(),
-                std::numeric_limits<double>::infinity()};
+  Bounds bounds{0, std::numeric_limits<double>::infinity(), 0};
   for (const Key* key : within) {
     bounds.k = std::max(bounds.k, key->extremes.shear);
     bounds.sigma = std::min(bounds.sigma, key->extremes.smallest);
+    bounds.Sigma = std::max(bounds.Sigma, (1 + growth) * key->extremes.largest);
   }
   bounds.k = std::min(1 - kRounding, (1 + kTolerance) * bounds.k + kRounding);
   bounds.sigma *= 1 - kTolerance;
@@ -117,7 +118,7 @@ bool LogInbetween::certify(const Sum& sum, std::span<const Key* const> within) c
   if (sum.change.l.isZero(0) && sum.change.w.isZero(0)) return true;
   const Extremes change = certifier_.extremes(sum.change);
   return change.shear <= 0.5 * kTolerance * bounds.k &&
-         change.smallest >= 1 - 0.5 * kTolerance * (1 - bounds.k);
+         change.smallest >= 1 - 0.5 * kTolerance * (1 - bounds.k) && change.largest <= 1 + growth;
 }
 
 /// The root mean square of l and nu on the boundary.
@@ -156,7 +157,8 @@ std::array<double, 4> LogInbetween::velocity(const std::array<const Key*, 4>& ke
   const auto certifies = [&](double step, const Key* other) {
     std::array<double, 4> weights{};
     for (size_t k = 0; k < 4; ++k) weights[k] = step * velocity[k] + (k == at ? 1 : 0);
-    return certify(sum_of(keys, weights), std::array{here, other});
+    constexpr double kRoom = 0.1;  // less than kGrowth, because curves may bulge
+    return certify(sum_of(keys, weights), std::array{here, other}, kRoom);
   };
   constexpr int kHalvings = 4;
   for (int halving = 0; halving < kHalvings; ++halving) {
@@ -300,7 +302,16 @@ LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& b
 /// Gives the sum a change. Whether the keys' extremes are proved for the result.
 bool LogInbetween::Interval::certifies(Sum& sum, LogMap change) const {
   sum.change = std::move(change);
-  return owner->certify(sum, std::span(keys).subspan(1, 2));
+  return sum.change.l.allFinite() && sum.change.w.allFinite() &&
+         owner->certify(sum, std::span(keys).subspan(1, 2), kGrowth);
+}
+
+/// The same for a change that also has to reach its targets.
+bool LogInbetween::Interval::certifies(Sum& sum, LogMap change, const Kept& kept) const {
+  if (!certifies(sum, std::move(change))) return false;
+  const Derivatives d = owner->weighted(sum);
+  const VectorXc off = kept.targets - kept.combinations * owner->integrals_.of(d.phi, d.psi);
+  return off.size() == 0 || off.cwiseAbs().maxCoeff() <= 0.1 * kStill * owner->size_;
 }
 
 /// Starts at several changes between the least one and a change of l alone, which does not increase
@@ -316,17 +327,21 @@ bool LogInbetween::Interval::keeps_within_limits(const Kept& kept, Sum& sum,
   };
   const LogMap alone = conformal ? least : owner->constrained_change(kept, blended, true);
   if (!is_nu(blended))
-    return certifies(sum, alone) ||
-           certifies(sum, owner->constrained_change(kept, starting_at(between(least, alone, 0.5)),
-                                                    conformal));
+    return certifies(sum, alone, kept) ||
+           (!conformal && certifies(sum,
+                                    owner->constrained_change(
+                                        kept, starting_at(between(least, alone, 0.5)), false),
+                                    kept));
   const double shear = std::max(keys[1]->extremes.shear, keys[2]->extremes.shear),
                smallest = std::min(keys[1]->extremes.smallest, keys[2]->extremes.smallest);
   for (const double part : {0.0, 0.5, 1.0}) {
     if (conformal && part > 0) break;
     for (const double margin : {0.0, 0.02})
-      if (certifies(sum, owner->bounded_change(kept, starting_at(between(least, alone, part)),
-                                               {(1 - margin) * shear, (1 + margin) * smallest},
-                                               conformal)))
+      if (certifies(
+              sum,
+              owner->bounded_change(kept, starting_at(between(least, alone, part)),
+                                    {(1 - margin) * shear, (1 + margin) * smallest}, conformal),
+              kept))
         return true;
   }
   return false;
@@ -337,7 +352,7 @@ bool LogInbetween::Interval::keeps_within_limits(const Kept& kept, Sum& sum,
 bool LogInbetween::Interval::keeps(const Kept& kept, Sum& sum) const {
   const Sum blended = sum;
   const LogMap whole = owner->constrained_change(kept, blended, conformal);
-  if (certifies(sum, whole)) return true;
+  if (certifies(sum, whole, kept)) return true;
   sum = blended;
   return keeps_within_limits(kept, sum, whole);
 }
@@ -364,7 +379,7 @@ void LogInbetween::Interval::correct(const VectorXc& wanted, Sum& sum, Blend& bl
   double part = 0.5;
   while (part > kLeast && !certifies_part(part)) part *= 0.5;
   blend.certified = part > kLeast || certifies_part(0);
-  // The largest part, so that pins start to slide without a jump.
+  // The largest part, so that pins do not jump when they start to slide.
   constexpr int kBisections = 4;
   double step = 0.5 * part;
   for (int i = 0; part > kLeast && i < kBisections; ++i, step *= 0.5)
@@ -372,7 +387,9 @@ void LogInbetween::Interval::correct(const VectorXc& wanted, Sum& sum, Blend& bl
   if (blend.certified) return;
   sum = blended;
   blend.certified = keeps_within_limits(closed, sum, least);
-  if (!blend.certified) sum.change = least;
+  if (blend.certified) return;
+  sum = blended;
+  if (least.l.allFinite() && least.w.allFinite()) sum.change = least;
 }
 
 /// Fills in f and its derivatives, and closes what integration leaves open around holes.
@@ -407,7 +424,7 @@ VectorXc LogInbetween::Interval::images(const Sum& sum, const VectorXc& f) const
   return images;
 }
 
-/// What is missing from the straight ways of the placed points.
+/// What the placed points miss their straight paths by.
 VectorXc LogInbetween::Interval::misses(const Sum& sum, double share, const VectorXc& f) const {
   return (1 - share) * placed_from + share * placed_to - images(sum, f);
 }
@@ -425,7 +442,8 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
   VectorXc wanted = (1 - share) * at_from + share * at_to;
   correct(wanted, sum, blend);
   draw(sum, share, blend);
-  // Integration along the mesh is less accurate, and half of the way may make the rest possible.
+  // Integration along the mesh is less accurate, and a pass that gets only partway still helps the
+  // next one.
   constexpr int kPasses = 3;
   constexpr double kClose = 0.1 * kStill;
   VectorXc off = misses(sum, share, blend.f);
@@ -435,13 +453,16 @@ LogInbetween::Blend LogInbetween::Interval::at(double u, bool measures) const {
     wanted.head(pairs) += off.tail(pairs) - off.head(pairs);
     Sum closer = sum;
     if (!keeps({constant, wanted}, closer)) break;
+    Blend better = blend;
+    draw(closer, share, better);
+    if (!better.certified) break;
+    blend = std::move(better);
     sum = std::move(closer);
-    draw(sum, share, blend);
     off = misses(sum, share, blend.f);
   }
   Index worst = 0;
   if (!still.empty() && off.cwiseAbs().maxCoeff(&worst) > kStill * owner->size_)
-    blend.slide = Blend::Slide{still[static_cast<size_t>(worst)], -off[worst]};
+    blend.slide = Blend::Slide{still[static_cast<size_t>(worst)], std::abs(off[worst])};
   if (is_nu(sum)) blend.map = single(sum);
   if (measures && blend.certified && blend.map)
     blend.extremes = owner->certifier_.extremes(*blend.map);

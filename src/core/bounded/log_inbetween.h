@@ -41,21 +41,24 @@ class LogInbetween {
   /// Stations that both keys hold stay within this fraction of the size of the straight line from
   /// their place in one key to their place in the other.
   static constexpr double kStill = 1e-4;
+  /// By how much the largest size may grow between keys. Without corrections, it is 6 % at most.
+  static constexpr double kGrowth = 0.3;
   /// The map between two keys.
   struct Blend {
     VectorXc f;
     Derivatives first;  ///< at the mesh's vertices
-    /// Whether it is proved that |nu| and the smallest size stay within 1 % of the keys' extremes.
+    /// Whether it is proved that |nu| and the smallest size stay within 1 % of the keys' extremes,
+    /// and that the largest size exceeds both by at most kGrowth.
     bool certified = false;
     /// If both keys are in the space L_nu: the map, up to a constant, and its extremes, if they are
     /// measured.
     std::optional<LogMap> map;
     std::optional<Extremes> extremes;
-    /// The station that is farthest from its place although both keys hold it, and its way from
-    /// there, if that is more than kStill of the size: no larger correction could be proved.
+    /// The station that is farthest from its place although both keys hold it, and its distance
+    /// from there, if that is more than kStill of the size: no larger correction could be proved.
     struct Slide {
       Index station;
-      Complex way;
+      double distance;
     };
     std::optional<Slide> slide;
     /// By how much f jumped before the jumps were spread over the picture; 0 without holes.
@@ -85,6 +88,7 @@ class LogInbetween {
    private:
     friend class LogInbetween;
     bool certifies(Sum& sum, LogMap change) const;
+    bool certifies(Sum& sum, LogMap change, const Kept& kept) const;
     bool keeps(const Kept& kept, Sum& sum) const;
     bool keeps_within_limits(const Kept& kept, Sum& sum, const LogMap& least) const;
     void correct(const VectorXc& wanted, Sum& sum, Blend& blend) const;
@@ -120,7 +124,7 @@ class LogInbetween {
   static LogMap single(const Sum& sum);
   Sum sum_of(const std::array<const Key*, 4>& keys, const std::array<double, 4>& weights) const;
   Derivatives weighted(const Sum& sum) const;
-  bool certify(const Sum& sum, std::span<const Key* const> within) const;
+  bool certify(const Sum& sum, std::span<const Key* const> within, double growth) const;
   double norm(const Sum& sum) const;
   double distance(const Key& a, const Key& b) const;
   std::array<double, 4> velocity(const std::array<const Key*, 4>& keys, size_t at) const;

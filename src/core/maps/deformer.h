@@ -103,6 +103,7 @@ struct MotionKey {
   const VectorXc* f;    ///< at the mesh's vertices
   double rotation = 0;  ///< the average rotation of the picture in radians, with whole turns
   double time = 0;
+  int turns = 0;  ///< whole turns since the key before it, besides the shortest rotation
 };
 
 /// The motion from one key to the next.
@@ -126,8 +127,7 @@ class ProvedMotion {
                                                    const MotionKey& to, const MotionKey* after,
                                                    bool smooth) const = 0;
   /// A map that an interval has given, at single points. Null if it is linear in each triangle.
-  virtual std::unique_ptr<PointMap> point_map(const SampledMap& between) const {
-    (void)between;
+  virtual std::unique_ptr<PointMap> point_map(const SampledMap& /*between*/) const {
     return nullptr;
   }
 };

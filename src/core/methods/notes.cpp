@@ -12,11 +12,11 @@ std::string short_pin_text(size_t pin, double pixels) {
 }
 
 std::string sliding_pin_text(size_t pin, double pixels) {
-  char text[128];
-  std::snprintf(
-      text, sizeof text,
-      ". Pin %d slides %.*f px: staying would take more distortion than the keyframes have",
-      static_cast<int>(pin) + 1, pixels < 10 ? 1 : 0, pixels);
+  char text[160];
+  std::snprintf(text, sizeof text,
+                ". Pin %d slides %.*f px: no map was found that holds it within both keyframes' "
+                "limits",
+                static_cast<int>(pin) + 1, pixels < 10 ? 1 : 0, pixels);
   return text;
 }
 
@@ -51,8 +51,9 @@ std::string strain_text(const std::optional<Extremes>& extremes) {
 }
 
 std::string coarse_mesh_text(int flipped_triangles) {
-  return "No folds, but the mesh is too coarse for this map: " + std::to_string(flipped_triangles) +
-         " inverted triangles";
+  return "The mesh is too coarse for this map: " +
+         (flipped_triangles == 1 ? std::string("1 triangle is inverted")
+                                 : std::to_string(flipped_triangles) + " triangles are inverted");
 }
 
 }  // namespace holomorph

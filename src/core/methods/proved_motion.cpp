@@ -9,8 +9,8 @@ namespace {
 
 using Key = LogInbetween::Key;
 
-struct Found final : Solution {
-  explicit Found(LogMap found) : map(std::move(found)) {}
+struct BlendedSolution final : Solution {
+  explicit BlendedSolution(LogMap found) : map(std::move(found)) {}
   LogMap map;
 };
 
@@ -33,7 +33,7 @@ class LogInterval final : public MotionInterval {
     map.fz = std::move(blend.first.phi);
     map.fzbar = blend.first.psi.conjugate();
     map.extremes = blend.extremes;
-    if (blend.map) map.solution = std::make_shared<Found>(std::move(*blend.map));
+    if (blend.map) map.solution = std::make_shared<BlendedSolution>(std::move(*blend.map));
     const int flipped = flipped_triangles(*mesh_, map.f);
     map.status = blend.certified && flipped == 0 ? SampledMap::Status::certified
                                                  : SampledMap::Status::infeasible;
@@ -41,8 +41,8 @@ class LogInterval final : public MotionInterval {
                : flipped > 0    ? coarse_mesh_text(flipped)
                                 : "Between keyframes: no folds";
     if (blend.certified && blend.slide)
-      map.note += sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)],
-                                   std::abs(blend.slide->way));
+      map.note +=
+          sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)], blend.slide->distance);
     return map;
   }
 
@@ -70,11 +70,15 @@ class LogMotion final : public ProvedMotion {
     std::vector<char> held;
     for (const size_t i : setting_.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
+    // A picture that makes whole turns cannot hold two pins.
+    if (to.turns != 0)
+      if (const auto first = std::ranges::find(held, char{1}); first != held.end())
+        std::fill(first + 1, held.end(), char{0});
     return std::make_unique<LogInterval>(between_, setting_, std::move(keys), smooth, held);
   }
 
   std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
-    const auto* found = dynamic_cast<const Found*>(between.solution.get());
+    const auto* found = dynamic_cast<const BlendedSolution*>(between.solution.get());
     if (!found) return nullptr;
     return std::make_unique<BoundedPointMap>(setting_.basis, setting_.mesh, found->map, between.f);
   }

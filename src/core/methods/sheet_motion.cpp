@@ -80,7 +80,7 @@ class SheetInterval final : public MotionInterval {
     for (size_t row = 0; row < pull.rows.size(); ++row) {
       auto& [target, spring] = pull.rows[row];
       if (row < met_.size() && met_[row] != 0 && target == to.pull.rows[row].target) {
-        // The keys may miss the target, each by another way: the pin moves straight.
+        // Each key may miss the target by a different amount: the pin moves straight.
         target = (1 - share) * solver().handles().image(row, from.shape.f) +
                  share * solver().handles().image(row, to.shape.f);
         continue;
@@ -116,8 +116,12 @@ class SheetMotion final : public ProvedMotion {
     if (!keys[1] || !keys[2]) return nullptr;
     std::vector<char> met;
     const SheetSolver& solver = *setting_->solver;
-    for (size_t i = 0; i < solver.handles().pins().size(); ++i)
-      met.push_back(is_met(*keys[1], *keys[2], i));
+    bool any = false;
+    for (size_t i = 0; i < solver.handles().pins().size(); ++i) {
+      // A picture that makes whole turns cannot hold two pins.
+      met.push_back(is_met(*keys[1], *keys[2], i) && !(any && to.turns != 0));
+      any = any || met.back() != 0;
+    }
     return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(met));
   }
 
