@@ -20,8 +20,8 @@ double eased(Ease ease, double u) {
 }
 
 /// The expected rotation of the picture from one pose to another, including whole turns. It is the
-/// rotation of the first pin with an angle, or else of the first pin with known turns, or else that
-/// of two pins that stay, or else the average rotation of the corners.
+/// rotation of the first pin with an angle, or else of the first pin with known turns, or else the
+/// average rotation of the corners.
 ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from, const Pose& to,
                                int turns) {
   ExpectedTurn expected;
@@ -39,11 +39,6 @@ ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from,
     for (size_t i = 0; i < deformation.pins.size(); ++i)
       if (from.pins[i].turn && to.pins[i].turn)
         return rotated_by(i, *to.pins[i].turn - *from.pins[i].turn);
-    // Where two pins stay, the picture does not turn.
-    std::vector<size_t> still;
-    for (size_t i = 0; i < deformation.pins.size(); ++i)
-      if (from.pins[i].position == to.pins[i].position) still.push_back(i);
-    if (still.size() > 1) return rotated_by(still[0], 0);
   }
   if (!method.uses_corners || deformation.corners.empty()) return expected;
   const auto turned = [](const Pose& pose) {

@@ -168,6 +168,25 @@ std::array<double, 4> LogInbetween::velocity(const std::array<const Key*, 4>& ke
   return {};
 }
 
+double LogInbetween::slide(const Key& from, const Key& to, const std::vector<char>& held) const {
+  const LogMap none{VectorXc::Zero(basis_->size()), VectorXc::Zero(basis_->size())};
+  const auto integrals = [&](std::vector<std::pair<double, const LogMap*>> terms) {
+    const Derivatives d = weighted({std::move(terms), none});
+    return integrals_.of(d.phi, d.psi);
+  };
+  const VectorXc off = integrals({{0.5, &from.map}, {0.5, &to.map}}) -
+                       0.5 * (integrals({{1, &from.map}}) + integrals({{1, &to.map}}));
+  double most = 0;
+  std::optional<Complex> first;
+  for (size_t i = 0; i < held.size(); ++i) {  // integrals start at station 0
+    if (!held[i]) continue;
+    const Complex here = i == 0 ? Complex(0) : off[static_cast<Index>(i) - 1];
+    if (first) most = std::max(most, std::abs(here - *first));
+    if (!first) first = here;
+  }
+  return most;
+}
+
 LogInbetween::Interval LogInbetween::interval(const Key* before, const Key& from, const Key& to,
                                               const Key* after, bool smooth,
                                               const std::vector<char>& held) const {

@@ -43,6 +43,10 @@ class LogInbetween {
   static constexpr double kStill = 1e-4;
   /// By how much the largest size may grow between keys. Without corrections, it is 6 % at most.
   static constexpr double kGrowth = 0.3;
+  /// By how much stations that both keys hold leave their places halfway without a correction, at
+  /// most. It shows whether the whole turns between the keys are the right ones.
+  double slide(const Key& from, const Key& to, const std::vector<char>& held) const;
+
   /// The map between two keys.
   struct Blend {
     VectorXc f;

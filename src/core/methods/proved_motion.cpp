@@ -1,5 +1,7 @@
 #include "core/methods/proved_motion.h"
 
+#include <algorithm>
+
 #include "core/maps/distortion.h"
 #include "core/methods/bounded_points.h"
 #include "core/methods/notes.h"
@@ -64,8 +66,7 @@ class LogMotion final : public ProvedMotion {
   std::unique_ptr<MotionInterval> interval(const MotionKey* before, const MotionKey& from,
                                            const MotionKey& to, const MotionKey* after,
                                            bool smooth) const override {
-    std::array<std::unique_ptr<const Key>, 4> keys{key_of(before), key_of(&from), key_of(&to),
-                                                   key_of(after)};
+    Keys keys{key_of(before), key_of(&from), key_of(&to), key_of(after)};
     if (!keys[1] || !keys[2]) return nullptr;
     std::vector<char> held;
     for (const size_t i : setting_.pins)
@@ -74,7 +75,10 @@ class LogMotion final : public ProvedMotion {
     if (to.turns != 0)
       if (const auto first = std::ranges::find(held, char{1}); first != held.end())
         std::fill(first + 1, held.end(), char{0});
-    return std::make_unique<LogInterval>(between_, setting_, std::move(keys), smooth, held);
+    turn_with_still_pins(keys, held);
+    std::array<std::unique_ptr<const Key>, 4> own;
+    std::ranges::move(keys, own.begin());
+    return std::make_unique<LogInterval>(between_, setting_, std::move(own), smooth, held);
   }
 
   std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
@@ -84,8 +88,30 @@ class LogMotion final : public ProvedMotion {
   }
 
  private:
+  using Keys = std::array<std::unique_ptr<Key>, 4>;
+
+  /// Adds a whole turn to the second half of the motion if pins that both ends hold slide much less
+  /// then. The average rotation of the picture does not tell: an arm may swing far.
+  void turn_with_still_pins(Keys& keys, const std::vector<char>& held) const {
+    if (std::ranges::count(held, char{1}) < 2) return;
+    const auto turned = [](Key key, int turns) {
+      key.map.l.array() += 2 * kPi * turns * kI;
+      return key;
+    };
+    int best = 0;
+    constexpr double kClearly = 0.5;
+    double least = kClearly * between_->slide(*keys[1], *keys[2], held);
+    for (const int turns : {-1, 1})
+      if (const double slide = between_->slide(*keys[1], turned(*keys[2], turns), held);
+          slide < least)
+        least = slide, best = turns;
+    if (best == 0) return;
+    for (const size_t k : {size_t{2}, size_t{3}})
+      if (keys[k]) *keys[k] = turned(std::move(*keys[k]), best);
+  }
+
   /// Null if the key is not certified.
-  std::unique_ptr<const Key> key_of(const MotionKey* key) const {
+  std::unique_ptr<Key> key_of(const MotionKey* key) const {
     if (!key || !key->extremes || !key->solution) return nullptr;
     const LogMap* map = setting_.map_of(*key->solution);
     if (!map) return nullptr;
