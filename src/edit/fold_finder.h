@@ -11,7 +11,7 @@
 namespace holomorph {
 
 /// For each triangle, 1 if some of the picture in it is visible: if its alpha is above 5 % at one
-/// of several points. Everything is visible without a picture. Cost: linear.
+/// of several points. Without a picture, everything is visible. Cost: linear.
 std::vector<char> visible_triangles(const Mesh& mesh, const Image* picture);
 
 /// Finds the visible folds of a map, and remembers them until the map changes.

@@ -22,6 +22,7 @@ struct SceneReport {
   double pin_most = 0;             ///< the largest of these distances
   std::optional<Extremes> proved;  ///< if the map is certified
   /// Measured at the mesh's vertices, or in its triangles if the map is blended in these.
+  /// For conformal maps, the turning number follows from the zeros.
   MapReport map;
   bool in_triangles = false;
   double least_in_triangles = 1, most_in_triangles = 1;  ///< stretches of the drawn triangles

@@ -318,7 +318,7 @@ LogMap LogInbetween::bounded_change(const Kept& kept, Sum sum, const Extremes& b
   return sum.change;
 }
 
-/// Gives the sum a change. Whether the keys' extremes are proved for the result.
+/// Gives the sum a change. Returns whether the keys' extremes are proved for the result.
 bool LogInbetween::Interval::certifies(Sum& sum, LogMap change) const {
   sum.change = std::move(change);
   return sum.change.l.allFinite() && sum.change.w.allFinite() &&
@@ -366,8 +366,8 @@ bool LogInbetween::Interval::keeps_within_limits(const Kept& kept, Sum& sum,
   return false;
 }
 
-/// Changes the sum so that stations are where they should be and holes are closed, and whether that
-/// was possible within the keys' extremes.
+/// Changes the sum so that stations are where they should be and holes are closed. Returns whether
+/// that was possible within the keys' extremes.
 bool LogInbetween::Interval::keeps(const Kept& kept, Sum& sum) const {
   const Sum blended = sum;
   const LogMap whole = owner->constrained_change(kept, blended, conformal);

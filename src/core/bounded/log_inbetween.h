@@ -39,7 +39,7 @@ class LogInbetween {
   double mean_argument(const LogMap& map) const { return on_mesh_.function(map.l).imag().mean(); }
 
   /// Stations that both keys hold stay within this fraction of the size of the straight line from
-  /// their place in one key to their place in the other.
+  /// their place in one key to their place in the other, unless the frame has a `slide`.
   static constexpr double kStill = 1e-4;
   /// By how much the largest size may grow between keys. Without corrections, it is 6 % at most.
   static constexpr double kGrowth = 0.3;
@@ -85,8 +85,9 @@ class LogInbetween {
   /// The motion from one key to the next. The keys must outlive it.
   class Interval {
    public:
-    /// The map at the fraction u of the time, 0 < u < 1, with or without `extremes`. Cost: that of
-    /// MapOnMesh::values, up to three products with the nodes of the paths, and a proof.
+    /// The map at the fraction u of the time, 0 < u < 1, with or without `extremes`. Cost: usually
+    /// that of MapOnMesh::values, three products with the nodes of the paths, and a proof; a few
+    /// dozen times these where stations are hard to hold.
     Blend at(double u, bool measures) const;
 
    private:

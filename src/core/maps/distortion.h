@@ -27,8 +27,8 @@ bool is_immersion(const Mesh& mesh, const VectorXc& f);
 struct MapReport {
   double max_k = 0, min_sigma = 0, max_sigma = 0;
   Points zeros;  ///< centers of rest triangles that contain zeros of f_z
-  /// Of the boundary's image; 1 for an immersion, also where the triangles around a vertex of the
-  /// boundary make more than a turn, so that the picture overlaps itself there.
+  /// How often the boundary's image turns around. It is 1 if is_immersion() is true, although the
+  /// picture may then overlap itself at a vertex of the boundary.
   double turning_number = 0;
   bool simple_boundary = true;
   int flipped_triangles = 0;

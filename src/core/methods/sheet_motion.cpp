@@ -99,7 +99,7 @@ class SheetInterval final : public MotionInterval {
   std::array<std::optional<SheetKey>, 4> keys_;
   std::array<std::optional<VectorXc>, 2> slopes_;
   Location still_;
-  std::vector<char> met_;  ///< for each pin, whether its place in between is exact
+  std::vector<char> met_;  ///< for each pin, whether it has an exact place in between
   bool smooth_;
 };
 
