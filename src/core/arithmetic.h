@@ -19,6 +19,11 @@ inline Complex quotient(Complex x, Complex y) {
   return {over * dot(y, x), over * cross(y, x)};
 }
 
+/// The cubic polynomial with value 0 at 0, 1 at 1, and slope 0 at both.
+inline double smoothstep(double u) {
+  return u * u * (3 - 2 * u);
+}
+
 /// Adds a whole multiple of `turn` to `number` to get the smallest result that is at least
 /// `before`. A result that falls short of `before` only by rounding counts as equal to it.
 inline double next_modulo(double before, double number, double turn) {

@@ -1,5 +1,6 @@
 #include "edit/settling.h"
 
+#include "core/arithmetic.h"
 #include "core/maps/distortion.h"
 
 namespace holomorph {
@@ -8,7 +9,7 @@ namespace {
 constexpr double kDuration = 150;  // milliseconds
 
 VectorXc blended(const VectorXc& from, const VectorXc& to, double u) {
-  return from + u * u * (3 - 2 * u) * (to - from);
+  return from + smoothstep(u) * (to - from);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/arithmetic.h"
 #include "core/maps/distortion.h"
 #include "core/maps/mesh_point_map.h"
 #include "scene/budget.h"
@@ -16,7 +17,7 @@ constexpr double kTie = 1e-3;
 
 /// The progress of the motion, 0 to 1, at the fraction u of the time between two keys.
 double eased(Ease ease, double u) {
-  return ease == Ease::smooth ? u * u * (3 - 2 * u) : u;
+  return ease == Ease::smooth ? smoothstep(u) : u;
 }
 
 /// The expected rotation of the picture from one pose to another, including whole turns. It is the

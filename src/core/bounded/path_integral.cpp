@@ -10,7 +10,7 @@ namespace holomorph {
 namespace {
 
 constexpr size_t kBatch = 2048;
-constexpr int kNodes = 12;
+constexpr size_t kNodes = 12;
 
 /// The ends of a line's panels, as fractions of the line.
 std::vector<double> panels_of(PolygonView polygon, const Line& line) {
@@ -26,6 +26,39 @@ std::vector<double> panels_of(PolygonView polygon, const Line& line) {
   }
   ends.back() = 1;
   return ends;
+}
+
+struct Quadrature {
+  Points points;
+  std::vector<LineNode> nodes;
+};
+
+Quadrature quadrature_along(PolygonView polygon, std::span<const Line> lines) {
+  const GaussRule& rule = gauss_rule(static_cast<int>(kNodes));
+  Quadrature all;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const Complex direction = lines[i].to - lines[i].from;
+    if (direction == Complex(0)) continue;
+    const std::vector<double> ends = panels_of(polygon, lines[i]);
+    for (size_t p = 0; p + 1 < ends.size(); ++p)
+      for (size_t g = 0; g < kNodes; ++g) {
+        const double length = ends[p + 1] - ends[p], fraction = ends[p] + length * rule.nodes[g];
+        all.points.push_back(lines[i].from + fraction * direction);
+        all.nodes.push_back({static_cast<Index>(i), length * rule.weights[g] * direction});
+      }
+  }
+  return all;
+}
+
+/// The integrals of df along `count` lines, from Phi' and conj(Psi') at the nodes.
+VectorXc sums_along(const std::vector<LineNode>& nodes, const Slopes& slopes, Index count) {
+  VectorXc sums = VectorXc::Zero(count);
+  for (size_t k = 0; k < nodes.size(); ++k) {
+    const Index at = static_cast<Index>(k);
+    sums[nodes[k].line] +=
+        slopes.fz[at] * nodes[k].weight + slopes.fzbar[at] * std::conj(nodes[k].weight);
+  }
+  return sums;
 }
 
 }  // namespace
@@ -45,34 +78,20 @@ Slopes slopes_at(const BoundaryBasis& basis, const LogMap& map, std::span<const 
 
 VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
                           std::span<const Line> lines) {
-  const GaussRule& rule = gauss_rule(kNodes);
-  Points points;
-  struct Node {
-    Index line;
-    Complex weight;
-  };
-  std::vector<Node> nodes;
-  for (size_t i = 0; i < lines.size(); ++i) {
-    const Complex direction = lines[i].to - lines[i].from;
-    if (direction == Complex(0)) continue;
-    const std::vector<double> ends = panels_of(basis.polygon(), lines[i]);
-    for (size_t p = 0; p + 1 < ends.size(); ++p)
-      for (int g = 0; g < kNodes; ++g) {
-        const double length = ends[p + 1] - ends[p],
-                     fraction = ends[p] + length * rule.nodes[static_cast<size_t>(g)];
-        points.push_back(lines[i].from + fraction * direction);
-        nodes.push_back(
-            {static_cast<Index>(i), length * rule.weights[static_cast<size_t>(g)] * direction});
-      }
-  }
-  const Slopes slopes = slopes_at(basis, map, points);
-  VectorXc increments = VectorXc::Zero(static_cast<Index>(lines.size()));
-  for (size_t k = 0; k < nodes.size(); ++k) {
-    const Index at = static_cast<Index>(k);
-    increments[nodes[k].line] +=
-        slopes.fz[at] * nodes[k].weight + slopes.fzbar[at] * std::conj(nodes[k].weight);
-  }
-  return increments;
+  const Quadrature all = quadrature_along(basis.polygon(), lines);
+  return sums_along(all.nodes, slopes_at(basis, map, all.points), static_cast<Index>(lines.size()));
+}
+
+LineIntegrals::LineIntegrals(const BoundaryBasis& basis, std::span<const Line> lines)
+    : count_(static_cast<Index>(lines.size())) {
+  Quadrature all = quadrature_along(basis.polygon(), lines);
+  nodes_ = std::move(all.nodes);
+  values_ = basis.values(all.points);
+}
+
+VectorXc LineIntegrals::of(const LogMap& map) const {
+  const Derivatives d = derivatives_of(map, values_ * map.l, values_ * map.w);
+  return sums_along(nodes_, {d.phi, d.psi.conjugate()}, count_);
 }
 
 VectorXc integrated_along(const MeshTree& tree, const BoundaryBasis& basis, const LogMap& map) {

@@ -243,7 +243,7 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
     return;
   }
   const bool cubic = slopes_a && slopes_b;
-  const double weight = cubic ? u * u * (3 - 2 * u) : u;
+  const double weight = cubic ? smoothstep(u) : u;
   const double from_a = duration * u * (1 - u) * (1 - u), from_b = -duration * u * u * (1 - u);
   VectorXc right = VectorXc::Zero(a.f.size());
   for (Index i = 0; i < areas_.size(); ++i) {

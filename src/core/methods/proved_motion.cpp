@@ -9,18 +9,16 @@
 namespace holomorph {
 namespace {
 
-using Key = LogInbetween::Key;
-
 struct BlendedSolution final : Solution {
   explicit BlendedSolution(LogMap found) : map(std::move(found)) {}
   LogMap map;
 };
 
-class LogInterval final : public MotionInterval {
+class ProvedInterval final : public MotionInterval {
  public:
-  LogInterval(std::shared_ptr<const LogInbetween> between, const MotionSetting& setting,
-              std::array<std::unique_ptr<const Key>, 4> keys, bool smooth,
-              const std::vector<char>& held)
+  ProvedInterval(std::shared_ptr<const LogInbetween> between, const MotionSetting& setting,
+                 std::array<std::unique_ptr<const LogKey>, 4> keys, bool smooth,
+                 const std::vector<char>& held)
       : between_(std::move(between)),
         mesh_(setting.mesh),
         pins_(setting.pins),
@@ -29,7 +27,7 @@ class LogInterval final : public MotionInterval {
                                      held)) {}
 
   SampledMap at(double u, bool measures) const override {
-    LogInbetween::Blend blend = interval_.at(u, measures);
+    LogInterval::Blend blend = interval_.at(u, measures);
     SampledMap map;
     map.f = std::move(blend.f);
     map.fz = std::move(blend.first.phi);
@@ -52,8 +50,8 @@ class LogInterval final : public MotionInterval {
   std::shared_ptr<const LogInbetween> between_;
   std::shared_ptr<const Mesh> mesh_;
   std::vector<size_t> pins_;
-  std::array<std::unique_ptr<const Key>, 4> keys_;
-  LogInbetween::Interval interval_;
+  std::array<std::unique_ptr<const LogKey>, 4> keys_;
+  LogInterval interval_;
 };
 
 class LogMotion final : public ProvedMotion {
@@ -76,9 +74,9 @@ class LogMotion final : public ProvedMotion {
       if (const auto first = std::ranges::find(held, char{1}); first != held.end())
         std::fill(first + 1, held.end(), char{0});
     turn_with_still_pins(keys, held);
-    std::array<std::unique_ptr<const Key>, 4> own;
+    std::array<std::unique_ptr<const LogKey>, 4> own;
     std::ranges::move(keys, own.begin());
-    return std::make_unique<LogInterval>(between_, setting_, std::move(own), smooth, held);
+    return std::make_unique<ProvedInterval>(between_, setting_, std::move(own), smooth, held);
   }
 
   std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
@@ -88,13 +86,13 @@ class LogMotion final : public ProvedMotion {
   }
 
  private:
-  using Keys = std::array<std::unique_ptr<Key>, 4>;
+  using Keys = std::array<std::unique_ptr<LogKey>, 4>;
 
   /// Adds a whole turn to the second half of the motion if pins that both ends hold slide much less
   /// then. The average rotation of the picture does not tell: an arm may swing far.
   void turn_with_still_pins(Keys& keys, const std::vector<char>& held) const {
     if (std::ranges::count(held, char{1}) < 2) return;
-    const auto turned = [](Key key, int turns) {
+    const auto turned = [](LogKey key, int turns) {
       key.map.l.array() += 2 * kPi * turns * kI;
       return key;
     };
@@ -111,11 +109,11 @@ class LogMotion final : public ProvedMotion {
   }
 
   /// Null if the key is not certified.
-  std::unique_ptr<Key> key_of(const MotionKey* key) const {
+  std::unique_ptr<LogKey> key_of(const MotionKey* key) const {
     if (!key || !key->extremes || !key->solution) return nullptr;
     const LogMap* map = setting_.map_of(*key->solution);
     if (!map) return nullptr;
-    auto own = std::make_unique<Key>(Key{*map, *key->extremes, *key->f, key->time});
+    auto own = std::make_unique<LogKey>(LogKey{*map, *key->extremes, *key->f, key->time});
     const double turns =
         std::round((key->rotation - between_->mean_argument(own->map)) / (2 * kPi));
     own->map.l.array() += 2 * kPi * turns * kI;

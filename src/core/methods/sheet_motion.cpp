@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/arithmetic.h"
 #include "core/maps/distortion.h"
 #include "core/mesh/inbetween.h"
 #include "core/sheet/fixed_coordinates.h"
@@ -72,7 +73,7 @@ class SheetInterval final : public MotionInterval {
 
   SheetPull blended_pull(double u, const VectorXc& f) const {
     const SheetKey &from = *keys_[1], &to = *keys_[2];
-    const double share = smooth_ ? u * u * (3 - 2 * u) : u;
+    const double share = smooth_ ? smoothstep(u) : u;
     const auto force = [](const Spring& spring, Complex off) {
       return spring.slope(std::norm(off)) * off;
     };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/arithmetic.h"
+
 namespace holomorph {
 namespace {
 
@@ -18,8 +20,7 @@ double slope_between(double before, double rise_before, double after, double ris
 
 double PeriodicCurve::Piece::operator()(double fraction) const {
   const double bump = fraction * (1 - fraction);
-  return value + rise * fraction * fraction * (3 - 2 * fraction) +
-         bump * ((1 - fraction) * left - fraction * right);
+  return value + rise * smoothstep(fraction) + bump * ((1 - fraction) * left - fraction * right);
 }
 
 PeriodicCurve::Piece PeriodicCurve::piece(Index i) const {

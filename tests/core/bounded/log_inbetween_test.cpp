@@ -36,14 +36,14 @@ struct Stage {
     between = std::make_unique<LogInbetween>(basis, mesh, pins);
   }
 
-  LogInbetween::Key key(const Points& targets, double time) const {
+  LogKey key(const Points& targets, double time) const {
     IsometricTarget target;
     target.stations.resize(static_cast<Index>(pins.size()));
     for (size_t i = 0; i < pins.size(); ++i)
       target.stations[static_cast<Index>(i)] = targets[i] - pins[i];
     const IsometricMap map = space->solved(target, {.pin_weight = 1e5});
     REQUIRE(map.certificate.holds);
-    LogInbetween::Key key{map.map, space->extremes(map.map), {}, time};
+    LogKey key{map.map, space->extremes(map.map), {}, time};
     const MapOnMesh on_mesh(*basis, *mesh);
     key.f = on_mesh.integrated(map.map);
     if (map.solution.gaps.size() > 0)
@@ -99,7 +99,7 @@ TEST_CASE("In-betweens of maps without folds do not fold, and still pins do not 
         from[i] += 0.1 * stage.size * random_complex(random);
         to[i] += 0.25 * stage.size * random_complex(random);
       }
-      const LogInbetween::Key a = stage.key(from, 0), b = stage.key(to, 1);
+      const LogKey a = stage.key(from, 0), b = stage.key(to, 1);
       std::vector<char> held(stage.pins.size(), 0);
       held[0] = held[1] = 1;
       const double shear = std::max(a.extremes.shear, b.extremes.shear),
@@ -141,7 +141,7 @@ TEST_CASE("In-betweens unwind whole turns, and triangles alone let still pins sl
   Points to = stage.pins;
   for (Complex& z : to)  // a bend of the right half
     if (z.real() > 3) z = Complex(3, 0) + (z - 3.0) * std::polar(1.0, 1.3);
-  LogInbetween::Key a = stage.key(stage.pins, 0), b = stage.key(to, 1);
+  LogKey a = stage.key(stage.pins, 0), b = stage.key(to, 1);
   std::vector<char> held;
   for (size_t i = 0; i < to.size(); ++i) held.push_back(to[i] == stage.pins[i]);
   const auto once = stage.between->interval(nullptr, a, b, nullptr, false, held);
@@ -179,8 +179,7 @@ TEST_CASE("Smooth in-betweens rest between equal keys") {
   const Stage stage(bar(), inner_vertices(bar(), 500, 3, random), 500);
   Points bent = stage.pins;
   bent[2] += Complex(0.2, 0.9);
-  const LogInbetween::Key a = stage.key(bent, 0), b = stage.key(bent, 0.6),
-                          c = stage.key(stage.pins, 1);
+  const LogKey a = stage.key(bent, 0), b = stage.key(bent, 0.6), c = stage.key(stage.pins, 1);
   const auto rests = stage.between->interval(nullptr, a, b, &c, true, {1, 1, 1});
   for (const double u : {0.2, 0.5, 0.9})
     CHECK((rests.at(u, false).f - a.f).cwiseAbs().maxCoeff() <= 1e-9 * stage.size);
@@ -190,7 +189,7 @@ TEST_CASE("Smooth in-betweens pass through keys with one velocity") {
   std::mt19937 random(8);
   const std::vector<int> pinned = inner_vertices(bar(), 500, 4, random);
   const Stage stage(bar(), pinned, 500);
-  std::vector<LogInbetween::Key> keys;
+  std::vector<LogKey> keys;
   for (const double time : {0.0, 1.0, 1.7, 3.0}) {
     Points targets = stage.pins;
     for (size_t i = 1; i < targets.size(); ++i)
@@ -221,8 +220,8 @@ TEST_CASE("Smooth in-betweens are certified next to keys that are much more dist
       for (Complex& z : to) z += reach * stage.size * random_complex(random);
       return stage.key(to, time);
     };
-    const LogInbetween::Key before = posed(0.5, 0), a = posed(0.02, 1), b = posed(0.02, 2),
-                            after = posed(0.5, 3);
+    const LogKey before = posed(0.5, 0), a = posed(0.02, 1), b = posed(0.02, 2),
+                 after = posed(0.5, 3);
     const auto interval = stage.between->interval(&before, a, b, &after, true,
                                                   std::vector<char>(stage.pins.size(), 0));
     for (int frame = 1; frame < 20; ++frame) CHECK(interval.at(frame / 20.0, false).certified);

@@ -1,0 +1,117 @@
+// The motion from one map without folds to the next.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/bounded/log_sums.h"
+#include "core/mesh/locator.h"
+
+namespace holomorph {
+
+/// A certified key: its map with a continuous argument, the proved extremes of its distortion, and
+/// f at the mesh's vertices.
+struct LogKey {
+  LogMap map;
+  Extremes extremes;
+  VectorXc f;
+  double time = 0;
+};
+
+/// The extremes of two keys together.
+Extremes extremes_of(const LogKey& a, const LogKey& b);
+
+/// Four points of a Bezier curve in the space of maps, as weights of four keys: the one before,
+/// both ends, and the one after. The first and the last point are the ends.
+struct LogCurve {
+  std::array<const LogKey*, 4> keys{};  ///< null: there is none
+  std::array<std::array<double, 4>, 4> controls{};
+  bool smooth = false;  ///< else a straight line
+
+  /// The sum of the keys' maps with the given weights.
+  LogSum sum(const std::array<double, 4>& weights, const LogSums& sums) const;
+  /// The sum of maps at the fraction u of the time.
+  LogSum at(double u, const LogSums& sums) const;
+  /// The progress of the motion, from 0 to 1.
+  double share(double u) const;
+  const LogKey& from() const { return *keys[1]; }
+  const LogKey& to() const { return *keys[2]; }
+};
+
+/// Threads: const functions may run at the same time.
+class LogInterval {
+ public:
+  /// Stations that both ends hold stay within this fraction of the size of the straight line from
+  /// their place in one key to their place in the other, unless the frame has a `slide`.
+  static constexpr double kStill = 1e-4;
+  /// By how much the largest size may grow between keys. Without corrections, it is 6 % at most.
+  static constexpr double kGrowth = 0.3;
+
+  /// `stations` are all stations, and `still` lists those that both ends hold. The keys, the sums
+  /// and the locator must outlive it.
+  LogInterval(const LogSums& sums, const MeshLocator& locator, LogCurve curve,
+              const Points& stations, std::vector<Index> still);
+
+  struct Blend {
+    VectorXc f;
+    Derivatives first;  ///< at the mesh's vertices
+    /// Whether it is proved that |nu| and the smallest size stay within 1 % of the keys' extremes,
+    /// and that the largest size exceeds both by at most kGrowth.
+    bool certified = false;
+    /// If both keys are in the space L_nu: the map, up to a constant, and its extremes, if they are
+    /// measured.
+    std::optional<LogMap> map;
+    std::optional<Extremes> extremes;
+    /// The station that is farthest from its place although both keys hold it, and its distance
+    /// from there, if that is more than kStill of the size: no larger correction could be proved.
+    struct Slide {
+      Index station;
+      double distance;
+    };
+    std::optional<Slide> slide;
+    /// By how much f jumped before the jumps were spread over the picture; 0 without holes.
+    double gap = 0;
+  };
+  /// The map at the fraction u of the time, 0 < u < 1, with or without `extremes`. Cost: usually
+  /// that of MapOnMesh::values, three products with the nodes of the paths, and a proof; a few
+  /// dozen times these where stations are hard to hold.
+  Blend at(double u, bool measures) const;
+
+ private:
+  using Kept = LogSums::Kept;
+  struct End;
+  End measured(const LogKey& key) const;
+  bool certifies(LogSum& sum, LogMap change) const;
+  bool certifies(LogSum& sum, LogMap change, const Kept& kept) const;
+  bool keeps(const Kept& kept, LogSum& sum, const LogMap& least) const;
+  bool keeps_within_limits(const Kept& kept, LogSum& sum, const LogMap& least) const;
+  bool keeps_partly(const Kept& closed, LogSum& sum, const LogMap& least,
+                    const LogMap& whole) const;
+  bool correct(const VectorXc& wanted, LogSum& sum) const;
+  void draw(const LogSum& sum, double share, Blend& blend) const;
+  VectorXc images(const LogSum& sum, const VectorXc& f) const;
+  VectorXc misses(const LogSum& sum, double share, const VectorXc& f) const;
+
+  const LogSums* sums_;
+  const MeshLocator* locator_;
+  LogCurve curve_;
+  Extremes limits_;  ///< the extremes of both ends
+  bool conformal_;   ///< both ends are
+  /// Combinations of integrals that stay: around holes, and between stations that both ends hold.
+  MatrixXd constant_;
+  std::vector<Index> still_;
+  /// Points that move straight: still stations, or one point. Each is at the end of a line that
+  /// starts at the vertex from which its images are integrated.
+  std::vector<Line> placed_;
+  std::vector<int> anchors_;  ///< these vertices
+  LineIntegrals lines_;
+  /// At an end: the constant combinations, the images of the placed points, and the key's f minus
+  /// what integration along the mesh gives. Blended, the latter is added to maps in between, so
+  /// that these are as accurate.
+  struct End {
+    VectorXc constant, places, off;
+  };
+  End from_, to_;
+};
+
+}  // namespace holomorph
