@@ -15,7 +15,7 @@ namespace {
 
 /// The flipped regions, the largest first. Each is represented by the center of its largest
 /// triangle. Empty when all regions together are too small to be seen.
-Points visible_folds(const Mesh& mesh, const VectorXc& f) {
+Points flipped_regions(const Mesh& mesh, const VectorXc& f) {
   constexpr double kVisible = 1e-4, kSpeck = 1e-5;  // relative areas: of all regions, of one region
   double turned = 0, total = 0;
   std::vector<std::pair<double, const Triangle*>> over;
@@ -136,7 +136,7 @@ class SimplifiedPolygon {
 
 Injectivity injectivity_of(const Mesh& mesh, const VectorXc& f) {
   Injectivity found;
-  found.folds_at = visible_folds(mesh, f);
+  found.folds_at = flipped_regions(mesh, f);
   Polygon image{{}, mesh.starts};
   for (const int v : mesh.boundary) image.points.push_back(f[v]);
   if (image.points.empty()) return found;

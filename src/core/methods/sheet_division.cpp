@@ -108,7 +108,7 @@ void SheetDivision::find_leaders() {
   if (attached.empty()) return;
   struct Link {
     size_t to = 0;
-    NearestPoint nearest{.distance = std::numeric_limits<double>::infinity()};
+    NearestPoint nearest{0, 0, {}, std::numeric_limits<double>::infinity()};
   };
   std::vector<Link> links(parts_.size());  // from each loose part to the nearest attached one
   const auto offer = [&](size_t to) {

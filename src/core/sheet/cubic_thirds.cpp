@@ -76,7 +76,7 @@ std::array<double, 15> squared(const Quadratic& q) {
 }
 
 /// The smaller stretch is determinant over larger stretch.
-StretchBounds bounds_of(const Slopes2& slopes) {
+StretchBounds stretch_bounds_of(const Slopes2& slopes) {
   const auto a = squared(slopes.fz), b = squared(slopes.fzbar);
   const auto [least_a, most_a] = std::ranges::minmax(a);
   const double most_b = std::ranges::max(b);
@@ -193,7 +193,7 @@ StretchBounds CubicThirds::bounds(int depth, const StretchBounds& elsewhere) con
   for (int level = 0; !pieces.empty(); ++level) {
     std::vector<Slopes2> finer;
     for (const Slopes2& piece : pieces) {
-      const StretchBounds own = bounds_of(piece);
+      const StretchBounds own = stretch_bounds_of(piece);
       StretchBounds known = elsewhere;
       known.include(at_corners(piece));
       const bool is_tight =

@@ -338,10 +338,17 @@ TEST_CASE("Outline: keeping the picture upright never makes it fold") {
   for (const unsigned seed : seeds_of("upright outlines", {1, 2, 3, 4})) {
     std::mt19937 random(seed);
     CAPTURE(seed);
-    const OutlineTask task{
-        polygon_cage(straight_runs(random, 6, 8)), straight_runs(random, 5, 10), {}, {}};
+    const Points from = straight_runs(random, 6, 8), to = straight_runs(random, 5, 10);
+    OutlineTask task{polygon_cage(from), to, {}, {}};
     OutlineSettings free;
     free.upright = 0;
+    const OutlineMatch plain = matched(task, free);
+    CHECK(matched(task, {}).zeros <= plain.zeros);
+    // The same with pins that are moved a little.
+    for (const size_t i : {size_t{0}, from.size() / 2}) task.pins.push_back(0.5 * from[i]);
+    const VectorXc images = cauchy_coordinates(plain.basis, task.pins) * plain.phi;
+    for (const Complex& image : images)
+      task.pinned.push_back(image + 15.0 * random_complex(random));
     CHECK(matched(task, {}).zeros <= matched(task, free).zeros);
   }
 }
