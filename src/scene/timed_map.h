@@ -13,8 +13,8 @@
 namespace holomorph {
 
 /// The map at a moment. In the deformation's own pose and at keyframes, the method computes the map
-/// with its guarantees. Between keyframes, the map may be certified if both keys are; it is
-/// linear in the mesh's triangles, unless ln f_z and nu are blended (ProvedMotion::point_map).
+/// with its guarantees. Between keyframes, methods without folds have smooth maps, which may be
+/// certified; the maps of others are linear in the mesh's triangles.
 struct TimedFrame {
   Deformation deformation;   ///< with the handles' positions at that moment
   std::optional<Pose> pose;  ///< none between keyframes

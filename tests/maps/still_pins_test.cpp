@@ -1,4 +1,5 @@
 // Pins that both keys hold stay between them, or the frame says which one slides, and how far.
+#include "core/arithmetic.h"
 #include "scene/keyframes.h"
 #include "scene/prepared_map.h"
 #include "scene/timed_map.h"
@@ -68,8 +69,7 @@ void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) 
     const int frames = few_or_many(4, 10);
     bool slides = false;
     for (int frame = 1; frame < frames; ++frame) {
-      const double u = static_cast<double>(frame) / frames,
-                   share = is_smooth ? u * u * (3 - 2 * u) : u;
+      const double u = static_cast<double>(frame) / frames, share = is_smooth ? smoothstep(u) : u;
       const TimedFrame at = timed.frame(u);
       if (at.between.status != SampledMap::Status::certified) continue;
       const VectorXc off = timed.at(at, still).f - (1 - share) * from - share * to;
@@ -139,6 +139,60 @@ TEST_CASE("Frames between keys are finite and grow little, also where the pictur
         if (map.status != SampledMap::Status::certified || method == "sheet") continue;
         REQUIRE(map.extremes);
         CHECK(map.extremes->largest <= 1.31 * keys);
+      }
+    }
+}
+
+TEST_CASE("A picture that makes whole turns holds one pin, and the note names another") {
+  for (const unsigned seed : seeds_of("whole turns with still pins", {1}))
+    for (const std::string method : {"puppet", "bounded", "sheet"}) {
+      INFO(method << ", seed " << seed);
+      std::mt19937 random(seed);
+      Deformation swing = random_swing(method, random);
+      swing.keyframes[1].turns = 1;
+      TimedMap timed(swing);
+      const Points still{swing.pins[0].rest, swing.pins[1].rest};
+      const VectorXc from = timed.at(timed.frame(0), still).f,
+                     to = timed.at(timed.frame(1), still).f;
+      for (const double u : {0.2, 0.5}) {
+        const TimedFrame at = timed.frame(u);
+        INFO("at " << u << ": " << at.between.note);
+        REQUIRE(at.between.status == SampledMap::Status::certified);
+        const VectorXc off = timed.at(at, still).f - (1 - u) * from - u * to;
+        CHECK(std::abs(off[0]) <= 1e-4 * 408);
+        CHECK(std::abs(off[1]) > 1e-4 * 408);
+        CHECK_THAT(at.between.note,
+                   Catch::Contains("Pin 2 slides") && Catch::Contains("whole turns"));
+      }
+    }
+}
+
+TEST_CASE("Still pins of sheets move straight, and their maps are continuous at keys") {
+  for (const unsigned seed : seeds_of("still pins of sheets", {1, 2}))
+    for (const double roundness : {0.0, 0.5}) {
+      INFO("roundness " << roundness << ", seed " << seed);
+      std::mt19937 random(seed);
+      Deformation pair = random_pair("sheet", random);
+      pair.parameters["roundness"] = roundness;
+      TimedMap timed(pair);
+      const double size = box_of(timed.mesh().vertices).diagonal();
+      Points places;
+      for (const Pin& pin : pair.pins) places.push_back(pin.rest);
+      const auto images = [&](double time) { return timed.at(timed.frame(time), places).f; };
+      const VectorXc from = images(0), to = images(1);
+      const auto is_certified = [&](double time) {
+        return timed.on_mesh(timed.frame(time)).status == SampledMap::Status::certified;
+      };
+      if (!is_certified(0) || !is_certified(1)) continue;
+      for (const double u : {1e-6, 0.3, 0.7, 1 - 1e-6}) {
+        const TimedFrame at = timed.frame(u);
+        INFO("at " << u << ": " << at.between.note);
+        if (at.between.status != SampledMap::Status::certified) continue;
+        const VectorXc off = timed.at(at, places).f - (1 - u) * from - u * to;
+        // A proof may need triangles at the pin to be straightened; the note then tells.
+        if (at.between.note.find("slides") == std::string::npos)
+          CHECK(off.head(2).cwiseAbs().maxCoeff() <= 1e-4 * size);
+        if (std::min(u, 1 - u) < 1e-5) CHECK(off.cwiseAbs().maxCoeff() <= 1e-4 * size);
       }
     }
 }

@@ -182,6 +182,13 @@ std::pair<Certifier::Leaf, Certifier::Leaf> Certifier::halved(const Leaf& leaf, 
   return {first, second};
 }
 
+/// How much e^u (1 + |nu|), with chords of both factors, can exceed its values at a leaf's ends.
+double Certifier::above_ends(const Leaf& leaf) {
+  const double size = std::exp(leaf.end.l.real()) - std::exp(leaf.start.l.real()),
+               shear = std::abs(leaf.end.w) - std::abs(leaf.start.w);
+  return std::max(0.0, -size * shear) / 4;
+}
+
 /// One proof in progress.
 class Certifier::Proof {
  public:
@@ -190,8 +197,7 @@ class Certifier::Proof {
         w(certifier.function_of(map.w)),
         certifier_(certifier),
         second_(map.second),
-        bounds_(bounds),
-        log_Sigma_(std::log(bounds.Sigma)) {}
+        bounds_(bounds) {}
 
   /// Tries to prove the bounds on a leaf, halving it up to `depth` times. Records where this fails.
   void prove(const Leaf& leaf, int depth) {
@@ -222,9 +228,11 @@ class Certifier::Proof {
   std::optional<Bound> unproved_bound(const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
                  dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w);
-    if (second_ == LogMap::Second::nu)
-      return first_of(unproved_bound_of_nu(leaf.start, dl, dw),
-                      unproved_bound_of_nu(leaf.end, dl, dw));
+    if (second_ == LogMap::Second::nu) {
+      const double above = std::exp(dl) * above_ends(leaf);
+      return first_of(unproved_bound_of_nu(leaf.start, dl, dw, above),
+                      unproved_bound_of_nu(leaf.end, dl, dw, above));
+    }
     const double below = below_chord(leaf.start.l, leaf.end.l);
     return first_of(unproved_bound_of_psi(leaf.start, dl, dw, below),
                     unproved_bound_of_psi(leaf.end, dl, dw, below));
@@ -233,7 +241,7 @@ class Certifier::Proof {
   /// An end of the leaf at which a bound is violated. Empty when there is none.
   std::optional<Complex> broken_end(const Leaf& leaf) const {
     const auto is_broken = [&](const Values& at) {
-      return second_ == LogMap::Second::nu ? unproved_bound_of_nu(at, 0, 0).has_value()
+      return second_ == LogMap::Second::nu ? unproved_bound_of_nu(at, 0, 0, 0).has_value()
                                            : unproved_bound_of_psi(at, 0, 0, 0).has_value();
     };
     if (is_broken(leaf.start)) return leaf.piece.start;
@@ -250,12 +258,13 @@ class Certifier::Proof {
     return a ? a : b;
   }
 
-  /// A bound that l and w may violate if they differ from these values by up to dl and dw. Empty
-  /// when there is none.
-  std::optional<Bound> unproved_bound_of_nu(const Values& at, double dl, double dw) const {
+  /// A bound that l and w may violate if they differ from these values by up to dl and dw, and the
+  /// largest size is greater by `above`. Empty when there is none.
+  std::optional<Bound> unproved_bound_of_nu(const Values& at, double dl, double dw,
+                                            double above) const {
     const double u = at.l.real(), w = std::abs(at.w) + dw;
     if (!(w <= bounds_.k)) return Bound::k;
-    if (!(u + dl + w <= log_Sigma_)) return Bound::Sigma;
+    if (!(std::exp(u + dl) * (1 + w) + above <= bounds_.Sigma)) return Bound::Sigma;
     if (!(w <= 1 - bounds_.sigma * std::exp(dl - u))) return Bound::sigma;
     return {};
   }
@@ -272,7 +281,6 @@ class Certifier::Proof {
   const Certifier& certifier_;
   LogMap::Second second_;
   const Bounds& bounds_;
-  double log_Sigma_;
 };
 
 Certificate Certifier::certify(const LogMap& map, const Bounds& bounds, int depth) const {
@@ -313,13 +321,6 @@ class Certifier::Search {
     if (quantity == kShear) return least > 0 ? w / least : kUnknown;
     return least > w ? 1 / (least - w) : kUnknown;
   }
-  /// How much e^u (1 + |nu|), with chords of both factors, can exceed its values at a leaf's ends.
-  double above_ends(const Leaf& leaf) const {
-    const double size = std::exp(leaf.end.l.real()) - std::exp(leaf.start.l.real()),
-                 shear = std::abs(leaf.end.w) - std::abs(leaf.start.w);
-    return std::max(0.0, -size * shear) / 4;
-  }
-
   double possible(Quantity quantity, const Leaf& leaf) const {
     const double dl = off_chord(leaf.piece, leaf.second_l, leaf.start.l, leaf.end.l),
                  dw = off_chord(leaf.piece, leaf.second_w, leaf.start.w, leaf.end.w),

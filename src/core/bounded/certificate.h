@@ -3,7 +3,9 @@
 // ln |f_z| is harmonic, |nu| and |f_z| + |f_zbar| are subharmonic and ln(|f_z| - |f_zbar|) is
 // superharmonic. Bounds that hold on the boundary therefore hold inside. Between two samples, l and
 // nu deviate from the chord of their values by at most an eighth of their largest second
-// derivative, and the bounds are convex in (Re l, |nu|). This follows Levi and Weber (2016), with
+// derivative. The bounds on shear and on the smallest size are convex in (Re l, |nu|). The largest
+// size, e^(Re l) (1 + |nu|), exceeds its values at both samples by at most a quarter of the product
+// of the changes of its factors, if these are opposite. This follows Levi and Weber (2016), with
 // second derivatives in closed form. The same holds with Psi' in place of nu, except that |f_z|
 // also deviates from its chord, by at most an eighth of its own second derivative.
 #pragma once
@@ -99,6 +101,7 @@ class Certifier {
     Values start, end;
     double second_l = 0, second_w = 0;
   };
+  static double above_ends(const Leaf& leaf);
   std::vector<Leaf> leaves_of(const LogMap& map, const Function& l, const Function& w) const;
   std::pair<Leaf, Leaf> halved(const Leaf& leaf, const Function& l, const Function& w) const;
   Function function_of(const VectorXc& coefficients) const;

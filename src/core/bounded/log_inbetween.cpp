@@ -71,8 +71,8 @@ double LogInbetween::slide(const LogKey& from, const LogKey& to,
 }
 
 LogInterval LogInbetween::interval(const LogKey* before, const LogKey& from, const LogKey& to,
-                                   const LogKey* after, bool smooth,
-                                   const std::vector<char>& held) const {
+                                   const LogKey* after, bool smooth, const std::vector<char>& held,
+                                   size_t most) const {
   check(held.size() == stations_.size(), "in-between: one mark for each station");
   LogCurve curve{{before, &from, &to, after}, {}, smooth};
   curve.controls[0][1] = curve.controls[1][1] = 1;
@@ -88,7 +88,8 @@ LogInterval LogInbetween::interval(const LogKey* before, const LogKey& from, con
   std::vector<Index> still;
   for (size_t i = 0; i < held.size(); ++i)
     if (held[i]) still.push_back(static_cast<Index>(i));
-  return LogInterval(sums_, locator_, curve, stations_, std::move(still));
+  const size_t kept = std::min(most, still.size());
+  return LogInterval(sums_, locator_, curve, stations_, std::move(still), kept);
 }
 
 }  // namespace holomorph

@@ -7,6 +7,8 @@
 // within the keys' extremes is tried, and then smaller changes, which still close holes.
 #pragma once
 
+#include <limits>
+
 #include "core/bounded/log_interval.h"
 
 namespace holomorph {
@@ -25,10 +27,11 @@ class LogInbetween {
   double slide(const LogKey& from, const LogKey& to, const std::vector<char>& held) const;
 
   /// Linear motion, or smooth motion that passes through an end with the velocity given by the keys
-  /// on both sides, if there are any there. `held` says which stations both ends hold. The keys and
-  /// this object must outlive the interval.
+  /// on both sides, if there are any there. `held` says which stations both ends hold, and at most
+  /// `most` of these are held in between. The keys and this object must outlive the interval.
   LogInterval interval(const LogKey* before, const LogKey& from, const LogKey& to,
-                       const LogKey* after, bool smooth, const std::vector<char>& held) const;
+                       const LogKey* after, bool smooth, const std::vector<char>& held,
+                       size_t most = std::numeric_limits<size_t>::max()) const;
 
  private:
   double distance(const LogKey& a, const LogKey& b) const;

@@ -16,12 +16,12 @@ VectorXc between(const VectorXc& a, const VectorXc& b, double part) {
   return (1 - part) * a + part * b;
 }
 
-/// Differences of the integrals to consecutive stations of `still`, and the integrals around holes.
-MatrixXd constant_combinations(const std::vector<Index>& still, Index integrals, Index holes) {
-  const Index pairs = std::max<Index>(0, static_cast<Index>(still.size()) - 1);
+/// Differences of the integrals to consecutive stations of `kept`, and the integrals around holes.
+MatrixXd constant_combinations(std::span<const Index> kept, Index integrals, Index holes) {
+  const Index pairs = std::max<Index>(0, static_cast<Index>(kept.size()) - 1);
   MatrixXd combinations = MatrixXd::Zero(pairs + holes, integrals);
   for (Index i = 0; i < pairs; ++i) {  // integrals start at station 0
-    const Index one = still[static_cast<size_t>(i)], next = still[static_cast<size_t>(i) + 1];
+    const Index one = kept[static_cast<size_t>(i)], next = kept[static_cast<size_t>(i) + 1];
     if (one > 0) combinations(i, one - 1) = -1;
     combinations(i, next - 1) = 1;
   }
@@ -60,14 +60,14 @@ double LogCurve::share(double u) const {
 }
 
 LogInterval::LogInterval(const LogSums& sums, const MeshLocator& locator, LogCurve curve,
-                         const Points& stations, std::vector<Index> still)
+                         const Points& stations, std::vector<Index> still, size_t kept)
     : sums_(&sums),
-      locator_(&locator),
       curve_(curve),
       limits_(extremes_of(curve.from(), curve.to())),
       conformal_(curve.from().map.w.isZero(0) && curve.to().map.w.isZero(0)),
-      constant_(constant_combinations(still, sums.count(), sums.holes())),
-      still_(std::move(still)) {
+      constant_(constant_combinations(std::span(still).first(kept), sums.count(), sums.holes())),
+      still_(std::move(still)),
+      kept_(static_cast<Index>(std::max<size_t>(1, kept))) {
   const Mesh& mesh = sums.mesh();
   const auto place = [&](Complex z) {
     const int vertex = locator.vertex_near(z);
@@ -198,20 +198,13 @@ void LogInterval::draw(const LogSum& sum, double share, Blend& blend) const {
     blend.f = sums_->without_jumps(std::move(blend.f), gaps);
   }
   blend.f += between(from_.off, to_.off, share);
-  blend.f.array() += misses(sum, share, blend.f).mean();
+  blend.f.array() += misses(sum, share, blend.f).head(kept_).mean();
 }
 
 /// The images of the placed points by a sum with values f at the mesh's vertices.
 VectorXc LogInterval::images(const LogSum& sum, const VectorXc& f) const {
-  const bool is_nu = sum.is_nu();
-  VectorXc images = is_nu ? lines_.of(sum.single()) : VectorXc(static_cast<Index>(placed_.size()));
-  for (size_t i = 0; i < placed_.size(); ++i) {
-    Complex& image = images[static_cast<Index>(i)];
-    if (is_nu)
-      image += f[anchors_[i]];
-    else
-      image = locator_->near(placed_[i].to).in(sums_->mesh(), as_span(f));
-  }
+  VectorXc images = lines_.of([&](const MatrixXc& c) { return sum.at(c); });
+  for (size_t i = 0; i < anchors_.size(); ++i) images[static_cast<Index>(i)] += f[anchors_[i]];
   return images;
 }
 
@@ -232,10 +225,9 @@ LogInterval::Blend LogInterval::at(double u, bool measures) const {
   constexpr int kPasses = 3;
   constexpr double kClose = 0.1 * kStill;
   VectorXc off = misses(sum, share, blend.f);
-  for (int pass = 0; pass < kPasses && blend.certified && still_.size() > 1; ++pass) {
-    if (off.cwiseAbs().maxCoeff() <= kClose * sums_->size()) break;
-    const Index pairs = off.size() - 1;
-    wanted.head(pairs) += off.tail(pairs) - off.head(pairs);
+  for (int pass = 0; pass < kPasses && blend.certified && kept_ > 1; ++pass) {
+    if (off.head(kept_).cwiseAbs().maxCoeff() <= kClose * sums_->size()) break;
+    wanted.head(kept_ - 1) += off.segment(1, kept_ - 1) - off.head(kept_ - 1);
     const Kept kept{constant_, wanted};
     LogSum closer = sum;
     if (!keeps(kept, closer, sums_->change(kept, sum, conformal_))) break;
@@ -249,9 +241,9 @@ LogInterval::Blend LogInterval::at(double u, bool measures) const {
   Index worst = 0;
   if (!still_.empty() && off.cwiseAbs().maxCoeff(&worst) > kStill * sums_->size())
     blend.slide = Blend::Slide{still_[static_cast<size_t>(worst)], std::abs(off[worst])};
-  if (sum.is_nu()) blend.map = sum.single();
-  if (measures && blend.certified && blend.map)
-    blend.extremes = sums_->certifier().extremes(*blend.map);
+  if (measures && blend.certified && sum.is_nu())
+    blend.extremes = sums_->certifier().extremes(sum.single());
+  blend.map = std::move(sum);
   return blend;
 }
 

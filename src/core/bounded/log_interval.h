@@ -47,10 +47,10 @@ class LogInterval {
   /// By how much the largest size may grow between keys. Without corrections, it is 6 % at most.
   static constexpr double kGrowth = 0.3;
 
-  /// `stations` are all stations, and `still` lists those that both ends hold. The keys, the sums
-  /// and the locator must outlive it.
+  /// `stations` are all stations, and `still` lists those that both ends hold. Only the first
+  /// `kept` of these are held in between. The keys and the sums must outlive it.
   LogInterval(const LogSums& sums, const MeshLocator& locator, LogCurve curve,
-              const Points& stations, std::vector<Index> still);
+              const Points& stations, std::vector<Index> still, size_t kept);
 
   struct Blend {
     VectorXc f;
@@ -58,12 +58,12 @@ class LogInterval {
     /// Whether it is proved that |nu| and the smallest size stay within 1 % of the keys' extremes,
     /// and that the largest size exceeds both by at most kGrowth.
     bool certified = false;
-    /// If both keys are in the space L_nu: the map, up to a constant, and its extremes, if they are
-    /// measured.
-    std::optional<LogMap> map;
+    LogSum map;  ///< up to a constant; it refers to the keys
+    /// If they are measured, and both keys are in the space L_nu.
     std::optional<Extremes> extremes;
     /// The station that is farthest from its place although both keys hold it, and its distance
-    /// from there, if that is more than kStill of the size: no larger correction could be proved.
+    /// from there, if that is more than kStill of the size: it is not kept, or no larger correction
+    /// could be proved.
     struct Slide {
       Index station;
       double distance;
@@ -93,16 +93,16 @@ class LogInterval {
   VectorXc misses(const LogSum& sum, double share, const VectorXc& f) const;
 
   const LogSums* sums_;
-  const MeshLocator* locator_;
   LogCurve curve_;
   Extremes limits_;  ///< the extremes of both ends
   bool conformal_;   ///< both ends are
   /// Combinations of integrals that stay: around holes, and between stations that both ends hold.
   MatrixXd constant_;
   std::vector<Index> still_;
-  /// Points that move straight: still stations, or one point. Each is at the end of a line that
-  /// starts at the vertex from which its images are integrated.
+  /// Points that move straight: still stations, the kept ones first, or one point. Each is at the
+  /// end of a line that starts at the vertex from which its images are integrated.
   std::vector<Line> placed_;
+  Index kept_;  ///< the number of points that are held: kept stations, or the one point
   std::vector<int> anchors_;  ///< these vertices
   LineIntegrals lines_;
   /// At an end: the constant combinations, the images of the placed points, and the key's f minus

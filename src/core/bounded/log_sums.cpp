@@ -20,6 +20,25 @@ LogMap LogSum::single() const {
   return map;
 }
 
+Derivatives LogSum::at(const MatrixXc& c) const {
+  if (is_nu()) {
+    const LogMap map = single();
+    return derivatives_of(map, c * map.l, c * map.w);
+  }
+  VectorXc l = c * change.l, nu = c * change.w;
+  for (const auto& [weight, term] : terms) {
+    const VectorXc own = c * term->l;
+    VectorXc w = c * term->w;
+    if (term->second == LogMap::Second::psi) w.array() *= (-own.array()).exp();
+    l += weight * own;
+    nu += weight * w;
+  }
+  Derivatives d;
+  d.phi = l.array().exp();
+  d.psi = nu.cwiseProduct(d.phi);
+  return d;
+}
+
 LogSums::LogSums(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,
                  const Points& stations)
     : basis_(std::move(basis)),
@@ -43,7 +62,7 @@ double LogSums::norm(const LogSum& sum) const {
 
 bool LogSums::certify(const LogSum& sum, const Extremes& within, double growth) const {
   constexpr double kTolerance = 0.01, kRounding = 1e-9;
-  constexpr int kDepth = 8;
+  constexpr int kDepth = 16;
   const Bounds bounds{std::min(1 - kRounding, (1 + kTolerance) * within.shear + kRounding),
                       (1 - kTolerance) * within.smallest, (1 + growth) * within.largest};
   if (sum.is_nu()) return certifier_.certify(sum.single(), bounds, kDepth).holds;
@@ -55,18 +74,9 @@ bool LogSums::certify(const LogSum& sum, const Extremes& within, double growth) 
 
 /// Phi' and Psi' at the nodes of the paths, times the weights of the nodes.
 Derivatives LogSums::weighted(const LogSum& sum) const {
-  const MatrixXc& c = integrals_.values();
-  VectorXc l = c * sum.change.l, nu = c * sum.change.w;
-  for (const auto& [weight, term] : sum.terms) {
-    const VectorXc own = c * term->l;
-    VectorXc w = c * term->w;
-    if (term->second == LogMap::Second::psi) w.array() *= (-own.array()).exp();
-    l += weight * own;
-    nu += weight * w;
-  }
-  Derivatives d;
-  d.phi = l.array().exp() * integrals_.weights().array();
-  d.psi = nu.cwiseProduct(d.phi);
+  Derivatives d = sum.at(integrals_.values());
+  d.phi.array() *= integrals_.weights().array();
+  d.psi.array() *= integrals_.weights().array();
   return d;
 }
 

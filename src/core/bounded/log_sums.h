@@ -17,6 +17,8 @@ struct LogSum {
   bool is_nu() const;
   /// The sum as a single map, if it is in L_nu.
   LogMap single() const;
+  /// Phi' and Psi' at points, from the values C of the basis there.
+  Derivatives at(const MatrixXc& c) const;
 };
 
 /// Sums of maps of one basis. Threads: const functions may run at the same time.

@@ -63,20 +63,26 @@ VectorXc sums_along(const std::vector<LineNode>& nodes, const Slopes& slopes, In
 
 }  // namespace
 
-Slopes slopes_at(const BoundaryBasis& basis, const LogMap& map, std::span<const Complex> points) {
+DerivativesAt derivatives_of(LogMap map) {
+  return [map = std::move(map)](const MatrixXc& c) {
+    return derivatives_of(map, c * map.l, c * map.w);
+  };
+}
+
+Slopes slopes_at(const BoundaryBasis& basis, const DerivativesAt& map,
+                 std::span<const Complex> points) {
   Slopes slopes{VectorXc(static_cast<Index>(points.size())),
                 VectorXc(static_cast<Index>(points.size()))};
   for (size_t first = 0; first < points.size(); first += kBatch) {
     const size_t count = std::min(kBatch, points.size() - first);
-    const MatrixXc c = basis.values(points.subspan(first, count));
-    const Derivatives d = derivatives_of(map, c * map.l, c * map.w);
+    const Derivatives d = map(basis.values(points.subspan(first, count)));
     slopes.fz.segment(static_cast<Index>(first), static_cast<Index>(count)) = d.phi;
     slopes.fzbar.segment(static_cast<Index>(first), static_cast<Index>(count)) = d.psi.conjugate();
   }
   return slopes;
 }
 
-VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
+VectorXc increments_along(const BoundaryBasis& basis, const DerivativesAt& map,
                           std::span<const Line> lines) {
   const Quadrature all = quadrature_along(basis.polygon(), lines);
   return sums_along(all.nodes, slopes_at(basis, map, all.points), static_cast<Index>(lines.size()));
@@ -89,8 +95,8 @@ LineIntegrals::LineIntegrals(const BoundaryBasis& basis, std::span<const Line> l
   values_ = basis.values(all.points);
 }
 
-VectorXc LineIntegrals::of(const LogMap& map) const {
-  const Derivatives d = derivatives_of(map, values_ * map.l, values_ * map.w);
+VectorXc LineIntegrals::of(const DerivativesAt& map) const {
+  const Derivatives d = map(values_);
   return sums_along(nodes_, {d.phi, d.psi.conjugate()}, count_);
 }
 
@@ -99,7 +105,7 @@ VectorXc integrated_along(const MeshTree& tree, const BoundaryBasis& basis, cons
   std::vector<Line> lines;
   for (const auto [from, to] : tree.edges())
     lines.push_back({vertices[static_cast<size_t>(from)], vertices[static_cast<size_t>(to)]});
-  const VectorXc increments = increments_along(basis, map, lines);
+  const VectorXc increments = increments_along(basis, derivatives_of(map), lines);
   VectorXc f = VectorXc::Zero(static_cast<Index>(vertices.size()));
   for (size_t e = 0; e < lines.size(); ++e) {
     const auto [from, to] = tree.edges()[e];

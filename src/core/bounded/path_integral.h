@@ -1,11 +1,17 @@
 // Integrates the derivatives of a map along straight lines, accurate to rounding error.
 #pragma once
 
+#include <functional>
+
 #include "core/bounded/certificate.h"
 #include "core/cauchy/boundary_basis.h"
 #include "core/mesh/antiderivative.h"
 
 namespace holomorph {
+
+/// Phi' and Psi' of a map at points, from the values C of the basis there, one row for each point.
+using DerivativesAt = std::function<Derivatives(const MatrixXc& c)>;
+DerivativesAt derivatives_of(LogMap map);
 
 /// A straight line segment inside the domain.
 struct Line {
@@ -21,7 +27,7 @@ struct LineNode {
 /// The increment of f = Phi + conj(Psi) along each line. The functions are defined only inside the
 /// basis' polygon. Each Gauss-Legendre panel is shorter than its distance from that polygon, which
 /// reduces the error to the level of rounding. Cost: 12 rows of the basis for each panel.
-VectorXc increments_along(const BoundaryBasis& basis, const LogMap& map,
+VectorXc increments_along(const BoundaryBasis& basis, const DerivativesAt& map,
                           std::span<const Line> lines);
 
 /// The same for many maps along the same lines. Cost: the rows above once, then a product with them
@@ -31,7 +37,7 @@ class LineIntegrals {
   LineIntegrals() = default;
   LineIntegrals(const BoundaryBasis& basis, std::span<const Line> lines);
 
-  VectorXc of(const LogMap& map) const;
+  VectorXc of(const DerivativesAt& map) const;
 
  private:
   Index count_ = 0;
@@ -47,6 +53,7 @@ VectorXc integrated_along(const MeshTree& tree, const BoundaryBasis& basis, cons
 struct Slopes {
   VectorXc fz, fzbar;
 };
-Slopes slopes_at(const BoundaryBasis& basis, const LogMap& map, std::span<const Complex> points);
+Slopes slopes_at(const BoundaryBasis& basis, const DerivativesAt& map,
+                 std::span<const Complex> points);
 
 }  // namespace holomorph

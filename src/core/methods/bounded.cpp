@@ -107,7 +107,8 @@ class BoundedDeformer final : public Deformer {
     Found found;
     Points zeros;
     copy.solve(pose, {}, nullptr, found, zeros);
-    return std::make_unique<BoundedPointMap>(copy.basis_, rest_.mesh, found.solution.map, found.f);
+    return std::make_unique<BoundedPointMap>(copy.basis_, rest_.mesh,
+                                             derivatives_of(found.solution.map), found.f);
   }
 
  private:
@@ -286,7 +287,8 @@ class BoundedDeformer final : public Deformer {
       return;
     }
     SampledMap map =
-        BoundedPointMap(basis_, rest_.mesh, found.solution.map, found.f).at(rest_.samples);
+        BoundedPointMap(basis_, rest_.mesh, derivatives_of(found.solution.map), found.f)
+            .at(rest_.samples);
     out.f = std::move(map.f);
     out.fz = std::move(map.fz);
     out.fzbar = std::move(map.fzbar);

@@ -12,7 +12,7 @@ namespace holomorph {
 class BoundedPointMap final : public PointMap {
  public:
   BoundedPointMap(std::shared_ptr<const BoundaryBasis> basis, std::shared_ptr<const Mesh> mesh,
-                  LogMap map, VectorXc f)
+                  DerivativesAt map, VectorXc f)
       : basis_(std::move(basis)),
         mesh_(std::move(mesh)),
         locator_(*mesh_),
@@ -55,7 +55,7 @@ class BoundedPointMap final : public PointMap {
   std::shared_ptr<const BoundaryBasis> basis_;
   std::shared_ptr<const Mesh> mesh_;
   MeshLocator locator_;
-  LogMap map_;
+  DerivativesAt map_;
   VectorXc f_;
 };
 

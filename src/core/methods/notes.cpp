@@ -11,12 +11,12 @@ std::string short_pin_text(size_t pin, double pixels) {
   return text;
 }
 
-std::string sliding_pin_text(size_t pin, double pixels) {
+std::string sliding_pin_text(size_t pin, double pixels, bool turns) {
   char text[160];
-  std::snprintf(text, sizeof text,
-                ". Pin %d slides %.*f px: no map was found that holds it within both keyframes' "
-                "limits",
-                static_cast<int>(pin) + 1, pixels < 10 ? 1 : 0, pixels);
+  std::snprintf(text, sizeof text, ". Pin %d slides %.*f px: %s", static_cast<int>(pin) + 1,
+                pixels < 10 ? 1 : 0, pixels,
+                turns ? "a picture that makes whole turns can hold only one pin"
+                      : "no map was found that holds it within both keyframes' limits");
   return text;
 }
 

@@ -17,8 +17,9 @@ inline constexpr double kMissed = 0.005;
 /// least `least`, in units of the plane. `offsets` are those of `pins`. Empty if none misses.
 std::string missed_pins_text(std::span<const size_t> pins, std::span<const Complex> offsets,
                              double least);
-/// A pin that leaves the place where both keyframes hold it, by so many pixels.
-std::string sliding_pin_text(size_t pin, double pixels);
+/// A pin that leaves the place where both keyframes hold it, by so many pixels. `turns`: because
+/// the picture makes whole turns.
+std::string sliding_pin_text(size_t pin, double pixels, bool turns);
 /// The strongest distortion of the picture, which explains why a pin is missed.
 std::string strain_text(const std::optional<Extremes>& extremes);
 

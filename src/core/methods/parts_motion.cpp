@@ -4,6 +4,11 @@
 namespace holomorph {
 namespace {
 
+/// What the intervals of the parts have found; null for loose parts.
+struct BlendedParts final : Solution {
+  std::vector<std::shared_ptr<const Solution>> parts;
+};
+
 class PartsInterval final : public MotionInterval {
  public:
   PartsInterval(std::shared_ptr<const SheetParts> sheets,
@@ -12,19 +17,26 @@ class PartsInterval final : public MotionInterval {
 
   SampledMap at(double u, bool measures) const override {
     std::vector<MapOfPart> maps(parts_.size());
-    std::string note;
+    const auto found = std::make_shared<BlendedParts>();
+    found->parts.resize(parts_.size());
+    std::string note, unproved;
     for (size_t p = 0; p < parts_.size(); ++p) {
       if (!parts_[p]) continue;
       SampledMap& map = maps[p].map = parts_[p]->at(u, measures);
+      found->parts[p] = map.solution;
       const Index anchors = static_cast<Index>(sheets_->division.parts()[p].anchors.size()),
                   count = map.f.size() - anchors;
       for (Index i = count; i < count + anchors; ++i)
         maps[p].anchors.push_back({map.f[i], map.fz[i], map.fzbar[i]});
       for (VectorXc* values : {&map.f, &map.fz, &map.fzbar}) values->conservativeResize(count);
-      if (note.empty() || map.status != SampledMap::Status::certified) note = map.note;
+      if (map.status != SampledMap::Status::certified)
+        unproved = map.note;
+      else if (map.note.size() > note.size())  // if it says more than others, it names a pin
+        note = map.note;
     }
     SampledMap all = sheets_->merged(std::move(maps), true);
-    all.note = std::move(note);
+    all.note = unproved.empty() ? std::move(note) : std::move(unproved);
+    all.solution = found;
     return all;
   }
 
@@ -55,6 +67,19 @@ class PartsMotion final : public ProvedMotion {
       if (!intervals[p]) return nullptr;
     }
     return std::make_unique<PartsInterval>(sheets_, std::move(intervals));
+  }
+
+  std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
+    const auto* found = dynamic_cast<const BlendedParts*>(between.solution.get());
+    if (!found) return nullptr;
+    std::vector<std::unique_ptr<PointMap>> maps(motions_.size());
+    for (size_t p = 0; p < motions_.size(); ++p) {
+      if (!motions_[p]) continue;
+      SampledMap part;
+      part.solution = found->parts[p];
+      maps[p] = motions_[p]->point_map(part);
+    }
+    return map_of_parts(sheets_, std::move(maps));
   }
 
  private:

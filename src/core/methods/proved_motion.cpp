@@ -9,22 +9,28 @@
 namespace holomorph {
 namespace {
 
+/// The key before an interval, its ends, and the key after it; some may be null.
+using Keys = std::array<std::unique_ptr<LogKey>, 4>;
+
+/// A map between keys, with the keys that it refers to.
 struct BlendedSolution final : Solution {
-  explicit BlendedSolution(LogMap found) : map(std::move(found)) {}
-  LogMap map;
+  BlendedSolution(LogSum found, std::shared_ptr<const Keys> of)
+      : map(std::move(found)), keys(std::move(of)) {}
+  LogSum map;
+  std::shared_ptr<const Keys> keys;
 };
 
 class ProvedInterval final : public MotionInterval {
  public:
   ProvedInterval(std::shared_ptr<const LogInbetween> between, const MotionSetting& setting,
-                 std::array<std::unique_ptr<const LogKey>, 4> keys, bool smooth,
-                 const std::vector<char>& held)
+                 Keys keys, bool smooth, const std::vector<char>& held, bool turns)
       : between_(std::move(between)),
         mesh_(setting.mesh),
         pins_(setting.pins),
-        keys_(std::move(keys)),
-        interval_(between_->interval(keys_[0].get(), *keys_[1], *keys_[2], keys_[3].get(), smooth,
-                                     held)) {}
+        keys_(std::make_shared<const Keys>(std::move(keys))),
+        turns_(turns),
+        interval_(between_->interval((*keys_)[0].get(), *(*keys_)[1], *(*keys_)[2],
+                                     (*keys_)[3].get(), smooth, held, turns ? 1 : held.size())) {}
 
   SampledMap at(double u, bool measures) const override {
     LogInterval::Blend blend = interval_.at(u, measures);
@@ -33,7 +39,7 @@ class ProvedInterval final : public MotionInterval {
     map.fz = std::move(blend.first.phi);
     map.fzbar = blend.first.psi.conjugate();
     map.extremes = blend.extremes;
-    if (blend.map) map.solution = std::make_shared<BlendedSolution>(std::move(*blend.map));
+    map.solution = std::make_shared<BlendedSolution>(std::move(blend.map), keys_);
     const int flipped = flipped_triangles(*mesh_, map.f);
     map.status = blend.certified && flipped == 0 ? SampledMap::Status::certified
                                                  : SampledMap::Status::infeasible;
@@ -41,8 +47,8 @@ class ProvedInterval final : public MotionInterval {
                : flipped > 0    ? coarse_mesh_text(flipped)
                                 : "Between keyframes: no folds";
     if (blend.certified && blend.slide)
-      map.note +=
-          sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)], blend.slide->distance);
+      map.note += sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)],
+                                   blend.slide->distance, turns_);
     return map;
   }
 
@@ -50,7 +56,8 @@ class ProvedInterval final : public MotionInterval {
   std::shared_ptr<const LogInbetween> between_;
   std::shared_ptr<const Mesh> mesh_;
   std::vector<size_t> pins_;
-  std::array<std::unique_ptr<const LogKey>, 4> keys_;
+  std::shared_ptr<const Keys> keys_;
+  bool turns_;  ///< the picture makes whole turns, and so can hold only one pin
   LogInterval interval_;
 };
 
@@ -69,25 +76,19 @@ class LogMotion final : public ProvedMotion {
     std::vector<char> held;
     for (const size_t i : setting_.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
-    // A picture that makes whole turns cannot hold two pins.
-    if (to.turns != 0)
-      if (const auto first = std::ranges::find(held, char{1}); first != held.end())
-        std::fill(first + 1, held.end(), char{0});
-    turn_with_still_pins(keys, held);
-    std::array<std::unique_ptr<const LogKey>, 4> own;
-    std::ranges::move(keys, own.begin());
-    return std::make_unique<ProvedInterval>(between_, setting_, std::move(own), smooth, held);
+    if (to.turns == 0) turn_with_still_pins(keys, held);
+    return std::make_unique<ProvedInterval>(between_, setting_, std::move(keys), smooth, held,
+                                            to.turns != 0);
   }
 
   std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
     const auto* found = dynamic_cast<const BlendedSolution*>(between.solution.get());
     if (!found) return nullptr;
-    return std::make_unique<BoundedPointMap>(setting_.basis, setting_.mesh, found->map, between.f);
+    const auto at = [map = found->map, keys = found->keys](const MatrixXc& c) { return map.at(c); };
+    return std::make_unique<BoundedPointMap>(setting_.basis, setting_.mesh, at, between.f);
   }
 
  private:
-  using Keys = std::array<std::unique_ptr<LogKey>, 4>;
-
   /// Adds a whole turn to the second half of the motion if pins that both ends hold slide much less
   /// then. The average rotation of the picture does not tell: an arm may swing far.
   void turn_with_still_pins(Keys& keys, const std::vector<char>& held) const {

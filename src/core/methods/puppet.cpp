@@ -164,7 +164,8 @@ class PuppetDeformer final : public Deformer {
                                              const IsometricMap& map) const {
     VectorXc f = integrated_along(display_->tree(), *basis_, map.map);
     f -= space_->loops().correction(display_->tree(), map.solution.gaps);
-    auto points = std::make_unique<BoundedPointMap>(basis_, rest_.mesh, map.map, std::move(f));
+    auto points = std::make_unique<BoundedPointMap>(basis_, rest_.mesh, derivatives_of(map.map),
+                                                    std::move(f));
     points->move(handles_.image(0, target, map.solution.offsets) -
                  points->at(handles_.isometric().stations[0]).f);
     return points;
@@ -214,7 +215,7 @@ class PuppetDeformer final : public Deformer {
         out.fz = std::move(values.first.phi);
         out.fzbar = values.first.psi.conjugate();
       } else {
-        Slopes slopes = slopes_at(*basis_, map.map, rest_.samples);
+        Slopes slopes = slopes_at(*basis_, derivatives_of(map.map), rest_.samples);
         out.fz = std::move(slopes.fz);
         out.fzbar = std::move(slopes.fzbar);
       }

@@ -1,6 +1,7 @@
-// At a key, the forces of the handles balance those of the sheet. In between, handles pull at the
-// images that the blended map gives them with blended forces, so that motion begins and ends at the
-// maps of the keys.
+// At a key, the forces of the handles balance those of the sheet, nearly: a pin may be met exactly,
+// and not all keys are at rest. A load makes up for what is missing. In between, handles pull at
+// the images that the blended map gives them with blended forces, and the loads are blended, so
+// that motion begins and ends at the maps of the keys.
 #include "core/methods/sheet_motion.h"
 
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "core/arithmetic.h"
 #include "core/maps/distortion.h"
 #include "core/mesh/inbetween.h"
+#include "core/methods/notes.h"
 #include "core/sheet/fixed_coordinates.h"
 
 namespace holomorph {
@@ -17,6 +19,7 @@ namespace {
 struct SheetSetting {
   std::shared_ptr<const SheetSolver> solver;
   std::vector<Location> places;
+  std::vector<size_t> numbers;  ///< of the pins
   std::shared_ptr<const Inbetween> between;
   std::shared_ptr<const FixedCoordinates> frame;
 };
@@ -24,17 +27,31 @@ struct SheetSetting {
 struct SheetKey {
   Inbetween::Shape shape;
   SheetPull pull;
+  Points pins;  ///< their images
   double time = 0;
+};
+
+/// A map between keys, at the vertices of the solver's mesh.
+struct BlendedSheet final : Solution {
+  explicit BlendedSheet(VectorXc found) : f(std::move(found)) {}
+  VectorXc f;
+};
+
+/// What both ends of an interval do with a pin.
+enum class Held : char {
+  no,
+  met,    ///< it has an exact place in between
+  slides  ///< both hold it, but a picture that makes whole turns can hold only one pin
 };
 
 class SheetInterval final : public MotionInterval {
  public:
   SheetInterval(std::shared_ptr<const SheetSetting> setting,
-                std::array<std::optional<SheetKey>, 4> keys, bool smooth, std::vector<char> met)
+                std::array<std::optional<SheetKey>, 4> keys, bool smooth, std::vector<Held> held)
       : setting_(std::move(setting)),
         keys_(std::move(keys)),
         still_(least_moving_point(mesh(), keys_[1]->shape.f, keys_[2]->shape.f)),
-        met_(std::move(met)),
+        held_(std::move(held)),
         smooth_(smooth) {
     if (!smooth) return;
     slopes_[0] = slopes(keys_[0], *keys_[1], keys_[2]);
@@ -51,12 +68,16 @@ class SheetInterval final : public MotionInterval {
     VectorXc f;
     setting_->between->blend(interval, u, f);
     setting_->frame->restore(f);
-    const SheetPull pull = blended_pull(u, f);
+    const Blended at = blended(u, f);
     if (flipped_triangles(mesh(), f) > 0) f = (u < 0.5 ? keys_[1] : keys_[2])->shape.f;
-    const ProvedSheet sheet(solver(), solver().relaxed(pull, met_, std::move(f)));
+    const auto found =
+        std::make_shared<const BlendedSheet>(solver().relaxed(at.pull, at.places, std::move(f)));
+    const ProvedSheet sheet(solver(), found->f);
     SampledMap map = sheet.sampled(setting_->places, true);
+    map.solution = found;
     if (sheet.is_proved() && measures) map.extremes = sheet.extremes();
-    map.note = sheet.is_proved() ? "Between keyframes: no folds" : "Between keyframes: not proved";
+    map.note = sheet.is_proved() ? "Between keyframes: no folds" + sliding_text(u, sheet.map())
+                                 : "Between keyframes: not proved";
     return map;
   }
 
@@ -71,36 +92,56 @@ class SheetInterval final : public MotionInterval {
         before ? here.time - before->time : 0, after ? after->time - here.time : 0);
   }
 
-  SheetPull blended_pull(double u, const VectorXc& f) const {
+  double share(double u) const { return smooth_ ? smoothstep(u) : u; }
+
+  /// Names the pin that is farthest from its straight way between its images at the ends, if both
+  /// hold it.
+  std::string sliding_text(double u, const SmoothMap& map) const {
+    constexpr double kStill = 1e-4;  // of the size
+    double most = kStill * solver().domain().size;
+    std::optional<size_t> farthest;
+    for (size_t i = 0; i < held_.size(); ++i) {
+      if (held_[i] == Held::no) continue;
+      const Complex straight = (1 - share(u)) * keys_[1]->pins[i] + share(u) * keys_[2]->pins[i];
+      const double off = std::abs(map.at(solver().handles().places()[i]).f - straight);
+      if (off > most) most = off, farthest = i;
+    }
+    if (!farthest) return {};
+    return sliding_pin_text(setting_->numbers[*farthest], most, held_[*farthest] == Held::slides);
+  }
+
+  struct Blended {
+    SheetPull pull;
+    SheetSolver::Places places;
+  };
+  Blended blended(double u, const VectorXc& f) const {
     const SheetKey &from = *keys_[1], &to = *keys_[2];
-    const double share = smooth_ ? smoothstep(u) : u;
-    const auto force = [](const Spring& spring, Complex off) {
+    const auto force_at = [&](const SheetKey& key, size_t row) {
+      const auto& [target, spring] = key.pull.rows[row];
+      const Complex off = target - solver().handles().image(row, key.shape.f);
       return spring.slope(std::norm(off)) * off;
     };
-    SheetPull pull = from.pull;
-    for (size_t row = 0; row < pull.rows.size(); ++row) {
-      auto& [target, spring] = pull.rows[row];
-      if (row < met_.size() && met_[row] != 0 && target == to.pull.rows[row].target) {
-        // Each key may miss the target by a different amount: the pin moves straight.
-        target = (1 - share) * solver().handles().image(row, from.shape.f) +
-                 share * solver().handles().image(row, to.shape.f);
-        continue;
-      }
-      const auto at = [&](const SheetKey& key) {
-        const SheetPull::Row& there = key.pull.rows[row];
-        return force(there.spring, there.target - solver().handles().image(row, key.shape.f));
-      };
+    Blended all{from.pull, SheetSolver::Places(held_.size())};
+    for (size_t row = 0; row < all.pull.rows.size(); ++row) {
+      auto& [target, spring] = all.pull.rows[row];
       spring = spring.firm();
-      target = solver().handles().image(row, f) + ((1 - u) * at(from) + u * at(to)) / spring.weight;
+      Complex place = solver().handles().image(row, f);
+      // Each key may miss the target by a different amount: the pin moves straight.
+      if (row < held_.size() && held_[row] == Held::met && target == to.pull.rows[row].target)
+        place = (1 - share(u)) * solver().handles().image(row, from.shape.f) +
+                share(u) * solver().handles().image(row, to.shape.f);
+      target = place + ((1 - u) * force_at(from, row) + u * force_at(to, row)) / spring.weight;
+      if (row < held_.size() && held_[row] == Held::met) all.places[row] = place;
     }
-    return pull;
+    all.pull.load = (1 - u) * from.pull.load + u * to.pull.load;
+    return all;
   }
 
   std::shared_ptr<const SheetSetting> setting_;
   std::array<std::optional<SheetKey>, 4> keys_;
   std::array<std::optional<VectorXc>, 2> slopes_;
   Location still_;
-  std::vector<char> met_;  ///< for each pin, whether it has an exact place in between
+  std::vector<Held> held_;  ///< one for each pin
   bool smooth_;
 };
 
@@ -115,20 +156,24 @@ class SheetMotion final : public ProvedMotion {
     std::array<std::optional<SheetKey>, 4> keys{key_of(before), key_of(&from), key_of(&to),
                                                 key_of(after)};
     if (!keys[1] || !keys[2]) return nullptr;
-    std::vector<char> met;
-    const SheetSolver& solver = *setting_->solver;
+    std::vector<Held> held;
     bool any = false;
-    for (size_t i = 0; i < solver.handles().pins().size(); ++i) {
-      // A picture that makes whole turns cannot hold two pins.
-      met.push_back(is_met(*keys[1], *keys[2], i) && !(any && to.turns != 0));
-      any = any || met.back() != 0;
+    for (size_t i = 0; i < setting_->solver->handles().pins().size(); ++i) {
+      const bool both = is_held(*keys[1], *keys[2], i);
+      held.push_back(!both ? Held::no : any && to.turns != 0 ? Held::slides : Held::met);
+      any = any || both;
     }
-    return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(met));
+    return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(held));
+  }
+
+  std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
+    const auto* found = dynamic_cast<const BlendedSheet*>(between.solution.get());
+    return found ? ProvedSheet(*setting_->solver, found->f).released() : nullptr;
   }
 
  private:
   /// Whether a pin has one target, which it may miss, or meets its targets exactly.
-  bool is_met(const SheetKey& from, const SheetKey& to, size_t pin) const {
+  bool is_held(const SheetKey& from, const SheetKey& to, size_t pin) const {
     constexpr double kMet = 1e-3;  // of the size
     const SheetSolver& solver = *setting_->solver;
     const auto is_at = [&](const SheetKey& key, Complex target) {
@@ -147,9 +192,12 @@ class SheetMotion final : public ProvedMotion {
     Inbetween::Shape shape = setting_->between->shape_of(found->state.f, 0);
     const double turns = std::round((key->rotation - shape.logarithm.imag().mean()) / (2 * kPi));
     if (turns != 0) shape = setting_->between->shape_of(found->state.f, static_cast<int>(turns));
-    return SheetKey{std::move(shape),
-                    solver.handles().pull(solver.handles().target(*key->pose), found->state.turns),
-                    key->time};
+    Points pins;
+    const ProvedSheet sheet(solver, found->state.f);
+    for (const Location& place : solver.handles().places()) pins.push_back(sheet.map().at(place).f);
+    SheetPull pull = solver.handles().pull(solver.handles().target(*key->pose), found->state.turns);
+    pull.load = solver.missing_load(pull, found->state.f);
+    return SheetKey{std::move(shape), std::move(pull), std::move(pins), key->time};
   }
 
   std::shared_ptr<const SheetSetting> setting_;
@@ -158,12 +206,13 @@ class SheetMotion final : public ProvedMotion {
 }  // namespace
 
 std::shared_ptr<const ProvedMotion> sheet_motion(std::shared_ptr<const SheetSolver> solver,
-                                                 std::vector<Location> places) {
+                                                 std::vector<Location> places,
+                                                 std::vector<size_t> numbers) {
   const std::shared_ptr<const Mesh>& mesh = solver->domain().mesh;
   auto between = std::make_shared<const Inbetween>(mesh);
   auto frame = std::make_shared<const FixedCoordinates>(mesh, solver->handles().holds().fixed);
-  return std::make_shared<const SheetMotion>(
-      SheetSetting{solver, std::move(places), std::move(between), std::move(frame)});
+  return std::make_shared<const SheetMotion>(SheetSetting{
+      solver, std::move(places), std::move(numbers), std::move(between), std::move(frame)});
 }
 
 }  // namespace holomorph

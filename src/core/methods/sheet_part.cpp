@@ -85,7 +85,9 @@ std::unique_ptr<PointMap> SheetPart::point_map(const Pose& pose) const {
 std::shared_ptr<const ProvedMotion> SheetPart::motion() const {
   std::vector<Location> places = places_;
   places.insert(places.end(), anchors_.begin(), anchors_.end());
-  return sheet_motion(solver_, std::move(places));
+  std::vector<size_t> numbers;
+  for (const size_t pin : handles().pins()) numbers.push_back(numbers_[pin]);
+  return sheet_motion(solver_, std::move(places), std::move(numbers));
 }
 
 /// A map that moves all of the part. All pins have the same turn.

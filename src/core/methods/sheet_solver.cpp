@@ -127,11 +127,11 @@ SheetState SheetSolver::solved(const SheetHandles::Target& target,
 void SheetSolver::meet_within_reach(const SheetHandles::Target& target, SheetState& state) const {
   constexpr double kReached = 0.02, kMet = 1e-9;  // of the size
   const SheetPull pull = handles_.pull(target, state.turns);
-  std::vector<char> reached;
-  for (size_t i = 0; i < handles_.pins().size(); ++i)
-    reached.push_back(std::abs(handles_.image(i, state.f) - pull.rows[i].target) <=
-                      kReached * domain_->size);
-  meet(pull, reached, kMet, state);
+  Places places(handles_.pins().size());
+  for (size_t i = 0; i < places.size(); ++i)
+    if (std::abs(handles_.image(i, state.f) - pull.rows[i].target) <= kReached * domain_->size)
+      places[i] = pull.rows[i].target;
+  meet(pull, places, kMet, state);
 }
 
 /// Follows a conformal path, or straight ways.
@@ -208,18 +208,17 @@ SheetState SheetSolver::followed(const SheetHandles::Target& target, SheetState 
   return before;
 }
 
-/// The method of multipliers: the targets of marked pins are moved on by what the pins miss.
-void SheetSolver::meet(SheetPull pull, const std::vector<char>& met, double within,
+/// The method of multipliers: the targets of pins with places are moved on by what the pins miss.
+void SheetSolver::meet(SheetPull pull, const Places& places, double within,
                        SheetState& state) const {
   constexpr int kRounds = 12, kSteps = 4;
-  const std::vector<SheetPull::Row> wanted = pull.rows;
-  for (size_t i = 0; i < met.size(); ++i)
-    if (met[i] != 0) pull.rows[i].spring = pull.rows[i].spring.firm();
+  for (size_t i = 0; i < places.size(); ++i)
+    if (places[i]) pull.rows[i].spring = pull.rows[i].spring.firm();
   for (int round = 0; round < kRounds; ++round) {
     double missed = 0;
-    for (size_t i = 0; i < handles_.pins().size(); ++i) {
-      if (met[i] == 0) continue;
-      const Complex off = wanted[i].target - handles_.image(i, state.f);
+    for (size_t i = 0; i < places.size(); ++i) {
+      if (!places[i]) continue;
+      const Complex off = *places[i] - handles_.image(i, state.f);
       missed = std::max(missed, std::abs(off));
       pull.rows[i].target += off;
     }
@@ -228,14 +227,20 @@ void SheetSolver::meet(SheetPull pull, const std::vector<char>& met, double with
   }
 }
 
-VectorXc SheetSolver::relaxed(const SheetPull& pull, const std::vector<char>& met,
-                              VectorXc f) const {
+VectorXc SheetSolver::relaxed(const SheetPull& pull, const Places& places, VectorXc f) const {
   constexpr int kMost = 20;
   constexpr double kWithin = 1e-7;
   SheetState state{std::move(f), {}};
   minimize(pull, kMost, state);
-  meet(pull, met, kWithin, state);
+  meet(pull, places, kWithin, state);
   return std::move(state.f);
+}
+
+VectorXc SheetSolver::missing_load(const SheetPull& pull, const VectorXc& f) const {
+  const VectorXd gradient = program_->gradient(f, pull);
+  VectorXc load(f.size());
+  for (Index v = 0; v < load.size(); ++v) load[v] = {gradient[2 * v], gradient[2 * v + 1]};
+  return load;
 }
 
 SmoothMap SheetSolver::smooth(const VectorXc& f) const {

@@ -54,9 +54,14 @@ class SheetSolver {
   /// The map of a target to which many steps lead, at most 500. Throws Stopped.
   SheetState settled(const SheetHandles::Target& target, SheetState before,
                      const std::stop_token& stop) const;
-  /// The map near f that a pull leads to, after a few steps. The pins that are marked get to their
-  /// targets, to within 1e-7 of the size.
-  VectorXc relaxed(const SheetPull& pull, const std::vector<char>& met, VectorXc f) const;
+  /// One for each pin: where it is to be exactly, if anywhere.
+  using Places = std::vector<std::optional<Complex>>;
+  /// The map near f that a pull leads to, after a few steps. Pins with places get there, to within
+  /// 1e-7 of the size.
+  VectorXc relaxed(const SheetPull& pull, const Places& places, VectorXc f) const;
+
+  /// The forces that are missing for a map to be at rest, one for each vertex.
+  VectorXc missing_load(const SheetPull& pull, const VectorXc& f) const;
 
   /// The map at single points, not guarded yet.
   SmoothMap smooth(const VectorXc& f) const;
@@ -70,7 +75,7 @@ class SheetSolver {
   void meet_within_reach(const SheetHandles::Target& target, SheetState& state) const;
   void settle(const SheetHandles::Target& target, SheetState& state,
               const std::stop_token& stop) const;
-  void meet(SheetPull pull, const std::vector<char>& met, double within, SheetState& state) const;
+  void meet(SheetPull pull, const Places& places, double within, SheetState& state) const;
 
   Settings settings_;
   std::vector<BrushDab> stiffness_;

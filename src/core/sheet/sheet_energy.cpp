@@ -86,14 +86,15 @@ SheetEnergy::SheetEnergy(std::shared_ptr<const Mesh> shared, VectorXd stiffness,
   second_.setFromTriplets(entries.begin(), entries.end());
   // The area around outline vertices bends as their neighbors inside do.
   const VectorXd shares = inner_shares(mesh, outer, stiff_masses);
-  VectorXd inverse_masses(3 * vertices), squares(3 * vertices);
+  VectorXd inverse_masses(3 * vertices);
+  squares_.resize(3 * vertices);
   for (Index v = 0; v < vertices; ++v)
     for (int k = 0; k < 3; ++k) {  // f_xy counts twice in |H|^2
       inverse_masses[3 * v + k] = 1 / masses[v];
-      squares[3 * v + k] = (k == 1 ? 2 : 1) * shares[v] * bending[v] * bending[v] / stiff_area_;
+      squares_[3 * v + k] = (k == 1 ? 2 : 1) * shares[v] * bending[v] * bending[v] / stiff_area_;
     }
   second_ = inverse_masses.asDiagonal() * second_;
-  bending_ = second_.transpose() * squares.asDiagonal() * second_;
+  bending_ = second_.transpose() * squares_.asDiagonal() * second_;
 }
 
 SheetStrain SheetEnergy::strain(size_t triangle, const VectorXc& f) const {
@@ -114,7 +115,17 @@ double SheetEnergy::membrane(const VectorXc& f) const {
 }
 
 double SheetEnergy::bending(const VectorXc& f) const {
-  return 0.5 * (f.real().dot(bending_ * f.real()) + f.imag().dot(bending_ * f.imag()));
+  const VectorXd x = second_ * f.real(), y = second_ * f.imag();
+  return 0.5 * squares_.dot((x.array().square() + y.array().square()).matrix());
+}
+
+VectorXc SheetEnergy::bending_gradient(const VectorXc& f) const {
+  const VectorXd x = squares_.cwiseProduct(second_ * f.real()),
+                 y = squares_.cwiseProduct(second_ * f.imag());
+  VectorXc gradient(f.size());
+  gradient.real() = second_.transpose() * x;
+  gradient.imag() = second_.transpose() * y;
+  return gradient;
 }
 
 std::array<Complex, 3> SheetEnergy::hessian_at(int vertex, const VectorXc& f) const {

@@ -50,6 +50,8 @@ class SheetEnergy {
   /// The bending energy as f* Q f / 2 with a real, symmetric Q. Vertices that share a neighbor are
   /// coupled.
   const Eigen::SparseMatrix<double>& bending_matrix() const { return bending_; }
+  /// Q f, more accurate than as a product: Q has large entries where triangles are small.
+  VectorXc bending_gradient(const VectorXc& f) const;
   /// Derivatives of the membrane of one triangle, which must not be flipped. The Hessian is given
   /// by its eigenvectors (isotropic energies; Smith, De Goes, Kim 2019). `projected`: a
   /// negative eigenvalue is replaced by 0.
@@ -75,6 +77,7 @@ class SheetEnergy {
   VectorXd weights_;  ///< A_t s_t / A
   double stiff_area_ = 0;
   Eigen::SparseMatrix<double, Eigen::RowMajor> second_;  ///< f_xx, f_xy and f_yy for each vertex
+  VectorXd squares_;  ///< the weights of their squares in twice the bending energy
   Eigen::SparseMatrix<double> bending_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -12,8 +13,10 @@
 namespace holomorph {
 namespace {
 
-/// Keeps the matrix definite where nothing resists a motion: rotations about a single pin.
-constexpr double kLeastStiffness = 1e-10;
+/// Relative to the largest stiffness: keeps the matrix definite where nothing resists a motion, as
+/// rotations about a single pin. The first is so small that the tip of a long, thin limb gets to
+/// its place in few steps; the second is for matrices that rounding errors make indefinite.
+constexpr std::array kLeastStiffness{1e-14, 1e-10};
 
 using Matrix = Eigen::SparseMatrix<double>;
 
@@ -111,13 +114,14 @@ double SheetProgram::value(const VectorXc& f, const SheetPull& pull) const {
     sum += pull.rows[r].spring.value(std::norm(holds_.rows[r].image(f) - pull.rows[r].target));
   for (const VertexPull& at : pull.vertices)
     sum += at.spring.value(std::norm(f[at.vertex] - at.target));
+  for (Index v = 0; v < pull.load.size(); ++v) sum -= dot(pull.load[v], f[v]);
   return sum;
 }
 
 VectorXd SheetProgram::gradient(const VectorXc& f, const SheetPull& pull) const {
-  const VectorXd x = energy_->bending_matrix() * f.real(), y = energy_->bending_matrix() * f.imag();
+  const VectorXc bending = energy_->bending_gradient(f);
   VectorXd gradient(2 * f.size());
-  for (Index v = 0; v < f.size(); ++v) gradient.segment<2>(2 * v) << x[v], y[v];
+  for (Index v = 0; v < f.size(); ++v) gradient.segment<2>(2 * v) = vector(bending[v]);
   for (size_t i = 0; i < slots_.size(); ++i) {
     const SheetGradient own = energy_->gradient_of(i, f);
     const Triangle& t = energy_->mesh().triangles[i];
@@ -131,6 +135,7 @@ VectorXd SheetProgram::gradient(const VectorXc& f, const SheetPull& pull) const 
   }
   for (const VertexPull& at : pull.vertices)
     gradient.segment<2>(2 * at.vertex) += gradient_of(at.spring, f[at.vertex] - at.target);
+  for (Index v = 0; v < pull.load.size(); ++v) gradient.segment<2>(2 * v) -= vector(pull.load[v]);
   for (Index i = 0; i < gradient.size(); ++i)
     if (is_fixed(i)) gradient[i] = 0;
   return gradient;
@@ -169,10 +174,17 @@ bool SheetProgram::factorize(const SheetPull& pull, const VectorXc& f, bool proj
   double largest = 0;
   for (Index i = 0; i < matrix.cols(); ++i)
     largest = std::max(largest, values[matrix.outerIndexPtr()[i]]);
-  for (Index i = 0; i < matrix.cols(); ++i)
-    values[matrix.outerIndexPtr()[i]] += kLeastStiffness * largest;
-  factor_->solver.factorize(matrix);
-  return factor_->solver.info() == Eigen::Success && factor_->solver.vectorD().minCoeff() > 0;
+  double added = 0;
+  for (const double least : kLeastStiffness) {
+    for (Index i = 0; i < matrix.cols(); ++i)
+      values[matrix.outerIndexPtr()[i]] += least * largest - added;
+    added = least * largest;
+    factor_->solver.factorize(matrix);
+    if (factor_->solver.info() == Eigen::Success && factor_->solver.vectorD().minCoeff() > 0)
+      return true;
+    if (!projected) break;
+  }
+  return false;
 }
 
 SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool projected) const {

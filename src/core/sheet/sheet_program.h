@@ -41,6 +41,7 @@ struct SheetPull {
   };
   std::vector<Row> rows;
   std::vector<VertexPull> vertices = {};
+  VectorXc load = {};  ///< a constant force at each vertex; empty: none
 };
 
 /// Minimizes the energy plus the pull of the handles. Holds the symbolic factorization of a mesh
