@@ -1,6 +1,7 @@
 // All values are measured on the default domain mesh.
 #include "scene/report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/cauchy/cauchy.h"
@@ -99,11 +100,14 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
     };
     report.map.zeros.clear();
     int windings = 0;
-    for (const Zero& zero :
-         zeros_of(mesh, places.empty() ? mesh.vertices : places, map.fz, fz_at)) {
-      report.map.zeros.push_back(zero.position);
-      windings += zero.multiplicity;
-    }
+    if (!point_map->has_no_zeros())
+      for (const Zero& zero :
+           zeros_of(mesh, places.empty() ? mesh.vertices : places, map.fz, fz_at)) {
+        report.map.zeros.push_back(zero.position);
+        report.map.min_sigma =
+            std::min(report.map.min_sigma, -std::abs(point_map->at(zero.position).fzbar));
+        windings += zero.multiplicity;
+      }
     // The boundary of a conformal map turns once more for each zero, also where the mesh is too
     // coarse to show it, and a single loop that turns more than once crosses itself.
     if (map.fzbar.isZero(0)) {

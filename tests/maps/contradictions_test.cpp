@@ -12,10 +12,26 @@ namespace holomorph::contradictions_test {
 
 namespace {
 
+/// A hundredth to a hundred times as large, and every other one with a hole, if it may have one.
+Cage varied_star(const Method& method, std::mt19937& random) {
+  const double scale = std::pow(10, 2 * random_complex(random).real());
+  const Complex center(200, 200);
+  Points outline = shapes::star(6 + static_cast<int>(random() % 12), 0.6, random());
+  for (Complex& z : outline) z = scale * (z - center);
+  Cage cage = polygon_cage(outline);
+  if (!method.allows_holes || random() % 2 == 0) return cage;
+  Points hole = shapes::star(5, 0.5, random());
+  for (Complex& z : hole) z = 0.2 * scale * (z - center);
+  add_hole(cage, polygon_cage(hole).segments);
+  return cage;
+}
+
 /// A random star with pins, corners and an outline, posed gently or wildly.
-Deformation random_deformation(const Method& method, std::mt19937& random) {
+Deformation random_deformation(const Method& method, bool varied, std::mt19937& random) {
   Deformation deformation;
-  const Cage cage = polygon_cage(shapes::star(6 + static_cast<int>(random() % 12), 0.6, random()));
+  const Cage cage =
+      varied ? varied_star(method, random)
+             : polygon_cage(shapes::star(6 + static_cast<int>(random() % 12), 0.6, random()));
   deformation.rest = deformation.pose = cage;
   deformation.method = method.id;
   const double size = box_of(outline_of(cage)).diagonal(),
@@ -68,7 +84,11 @@ void check_report(const SceneReport& report) {
     CHECK(map.max_sigma <= proved.largest + 1e-9);
   }
   if (map.locally_injective()) CHECK_FALSE(report.folds_visibly);
+  if (!map.zeros.empty() && !report.in_triangles && method_named(report.method).uses_outline)
+    CHECK(map.min_sigma <= 0);  // maps that are linear in triangles may wind around a vertex
   if (report.folds_visibly) CHECK_FALSE((says("No folds") || says("no folds")));
+  if (report.folds_visibly && !report.in_triangles && method_named(report.method).never_folds)
+    CHECK((says("too coarse") || says("ot proved") || says("As published")));
   if (says("The picture folds")) CHECK_FALSE(map.locally_injective());
   // Each zero adds a turn to the boundary; where triangles are flipped, the mesh is too coarse to
   // tell.
@@ -80,10 +100,10 @@ void check_report(const SceneReport& report) {
 }
 
 /// Checks the report of a random pose, and that of a frame between it and the rest.
-void check_reports(const Method& method, unsigned seed) {
+void check_reports(const Method& method, unsigned seed, bool varied = false) {
   INFO(method.id << ", seed " << seed);
   std::mt19937 random(seed);
-  Deformation deformation = random_deformation(method, random);
+  Deformation deformation = random_deformation(method, varied, random);
   try {
     TimedMap alone(deformation);
     check_report(report_of(alone, alone.frame({})));
@@ -117,6 +137,13 @@ TEST_CASE("Reports of other maps do not contradict themselves") {
       if (soaks() ? !method.uses_outline && !method.uses_corners
                   : method.id == "sheet" || method.id == "bounded" || method.id == "puppet")
         check_reports(method, seed);
+}
+
+TEST_CASE("Reports of maps of all sizes, and with holes, do not contradict themselves") {
+  for (const unsigned seed : seeds_of("contradictions, sizes and holes", {1, 2}))
+    for (const Method& method : methods())
+      if (soaks() || method.id == "sheet" || method.id == "bounded" || method.id == "angles")
+        check_reports(method, seed, true);
 }
 
 }  // namespace holomorph::contradictions_test

@@ -125,8 +125,10 @@ void injectivity_section(Workspace& workspace) {
   if (const auto& proved = workspace.map().map().extremes) {
     details("Details: sizes " + percent(proved->smallest) + " to " + percent(proved->largest) +
                 ", shear " + percent(proved->shear),
-            "Proved limits: no length in the picture shrinks or grows more than this, in any "
-            "direction. Shear is 0 % where angles are kept, and 100 % where the picture is flat.");
+            "Proved limits of the smooth map: no length in the picture shrinks or grows more than "
+            "this, in any direction. The small triangles that draw it may exceed them where it "
+            "bends sharply. Shear is 0 % where angles are kept, and 100 % where the picture is "
+            "flat.");
   } else {
     details("Details: smallest size " + percent(found.least_stretch + 0.0),
             "The size that remains where the picture is compressed most, in the "

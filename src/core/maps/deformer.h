@@ -83,6 +83,8 @@ class PointMap {
   virtual std::vector<Value> values_at(std::span<const Complex> points) const;
   /// Whether the map is linear in each triangle of the rest's mesh.
   virtual bool is_linear_in_triangles() const { return false; }
+  /// Whether f_z is an exponential, which is 0 nowhere, though it may be too small to tell.
+  virtual bool has_no_zeros() const { return false; }
   /// Whether the map is put together from pieces, so that its second derivatives may jump.
   virtual bool is_piecewise() const { return false; }
 };

@@ -10,7 +10,9 @@
 #include "core/error.h"
 #include "core/geometry/orientation.h"
 #include "core/maps/acting_pins.h"
+#include "core/maps/distortion.h"
 #include "core/methods/linear.h"
+#include "core/methods/notes.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 
@@ -86,6 +88,8 @@ class AnglePoints final : public PointMap {
     return values;
   }
 
+  bool has_no_zeros() const override { return true; }
+
  private:
   const Cage& cage() const { return map_.coordinates().cage(); }
 
@@ -139,7 +143,8 @@ class AnglesDeformer final : public Deformer {
                                boundary_.cage, corner_values(boundary_.cage, boundary_.corners))),
         frame_(boundary_.cage),
         map_(*rest_.mesh, coordinates_, joined(rest_.samples, frame_.samples()), rest_.precision),
-        acting_(usable_pins(rest_)) {
+        acting_(usable_pins(rest_)),
+        is_on_mesh_(rest_.samples == rest_.mesh->vertices) {
     if (parameter(method_named("angles"), rest_.parameters, "published") != 0)
       published_.emplace(boundary_.cage, boundary_.corners, map_.anchor());
     if (acting_.used.empty() || published_) return;
@@ -171,6 +176,9 @@ class AnglesDeformer final : public Deformer {
     out.f = (placed.scale * f).array() + placed.move;
     const Index lost = count - out.f.array().isFinite().count();
     if (lost > 0) say(out, std::to_string(lost) + " points are bent too far to compute");
+    if (is_on_mesh_ && lost == 0)
+      if (const int flipped = flipped_triangles(*rest_.mesh, out.f); flipped > 0)
+        say(out, coarse_mesh_text(flipped));
     if (!options.derivatives || count == 0) return out;
     if (slopes_.rows() != count) slopes_ = slopes();
     const VectorXc theta = placed.theta.cast<Complex>();
@@ -291,6 +299,7 @@ class AnglesDeformer final : public Deformer {
   AngleFrame frame_;
   AngleMap map_;  ///< at the samples of the rest, and then at those of the frame
   UsablePins acting_;
+  bool is_on_mesh_;  ///< the samples are the mesh's vertices
   std::optional<AnglePins> pins_;
   std::optional<PublishedAngles> published_;  ///< the published map, used for comparison
   PlanarMatrix<double> slopes_;

@@ -19,6 +19,7 @@ class BoundedPointMap final : public PointMap {
         map_(std::move(map)),
         f_(std::move(f)) {}
 
+  bool has_no_zeros() const override { return true; }
   Value at(Complex z) const override {
     const SampledMap map = at(std::span(&z, 1));
     return {map.f[0], map.fz[0], map.fzbar[0]};

@@ -101,6 +101,25 @@ TEST_CASE("Drafts come to rest in a few steps") {
   CHECK(steps <= 14 * kDrags);  // 18 with projected steps only
 }
 
+TEST_CASE("The tip of a thin limb is where many more steps would take it") {
+  for (const unsigned seed : seeds_of("thin limbs", {1, 2})) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const double length = 600 + 200 * random_complex(random).real();
+    const Points outline{{0, 0},     {200, 0},   {200, 90}, {200 + length, 110},
+                         {200, 130}, {200, 200}, {0, 200}};
+    Rest rest = rest_of(polygon_cage(outline), {{132, 16}});
+    rest.pins[0].has_frame = true;
+    Drag drag(rest);
+    drag.pose.pins[0].angle = 0.3 * random_complex(random).real();
+    drag.pose.pins[0].scale = 1.1;
+    const SampledMap found = drag.deformer->deform(drag.pose, {});
+    drag.shown = found;
+    drag.settle();
+    CHECK(drag.apart(found) <= 1e-5);
+  }
+}
+
 TEST_CASE("Rings: a photograph that cannot follow a ring stops, and does not snap back") {
   for (const unsigned seed : seeds_of("rings in photographs", {1, 2})) {
     CAPTURE(seed);
