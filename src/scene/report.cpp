@@ -104,10 +104,13 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
       for (const Zero& zero :
            zeros_of(mesh, places.empty() ? mesh.vertices : places, map.fz, fz_at)) {
         report.map.zeros.push_back(zero.position);
-        report.map.min_sigma =
-            std::min(report.map.min_sigma, -std::abs(point_map->at(zero.position).fzbar));
         windings += zero.multiplicity;
       }
+    // No sample need be so close to a zero that it shows how far the map is folded there.
+    for (const PointMap::Value& at : point_map->values_at(report.map.zeros)) {
+      report.map.min_sigma = std::min(report.map.min_sigma, 0 - std::abs(at.fzbar));
+      if (at.fzbar != Complex(0)) report.map.max_k = std::max(report.map.max_k, 1.0);
+    }
     // The boundary of a conformal map turns once more for each zero, also where the mesh is too
     // coarse to show it, and a single loop that turns more than once crosses itself.
     if (map.fzbar.isZero(0)) {

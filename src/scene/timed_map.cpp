@@ -110,7 +110,7 @@ SampledMap TimedMap::values_in_cage(const TimedFrame& frame, const Points& point
 FineMap TimedMap::fine(const TimedFrame& frame, double tolerance,
                        const std::function<void()>& keep_going) const {
   const std::shared_ptr<const Mesh> drawn = drawn_mesh(prepared_->mesh, frame.deformation);
-  const auto map = frame.pose ? prepared_->deformer->point_map(*frame.pose) : nullptr;
+  const std::unique_ptr<PointMap> map = point_map(frame);
   if (!map) {
     const VectorXc f = on_mesh(frame).f;
     return {*drawn, {f.begin(), f.end()}};

@@ -13,8 +13,8 @@
 namespace holomorph {
 
 /// The map at a moment. In the deformation's own pose and at keyframes, the method computes the map
-/// with its guarantees. Between keyframes, methods without folds have smooth maps, which may be
-/// certified; the maps of others are linear in the mesh's triangles.
+/// with its guarantees. Between keyframes that are certified, methods without folds have smooth
+/// maps, which may be certified, too; other maps are linear in the mesh's triangles.
 struct TimedFrame {
   Deformation deformation;   ///< with the handles' positions at that moment
   std::optional<Pose> pose;  ///< none between keyframes
@@ -58,8 +58,8 @@ class TimedMap {
   std::unique_ptr<PointMap> point_map(const TimedFrame& frame) const;
 
   /// The map in linear pieces that are within `tolerance` of it, in units of the plane. They are in
-  /// the order in which they are drawn. Maps between keyframes, and those that the method knows
-  /// only at samples, are linear in each triangle of the mesh. Uses all cores. Calls `keep_going`
+  /// the order in which they are drawn. Maps that the method knows only at samples are linear
+  /// in each triangle of the mesh. Uses all cores. Calls `keep_going`
   /// on this thread from time to time; an exception from it ends the work and is rethrown.
   FineMap fine(
       const TimedFrame& frame, double tolerance,

@@ -111,8 +111,15 @@ void injectivity_section(Workspace& workspace) {
     colored_text(c.warning, "Parts overlap");
     show_me("Show me##overlap");
   }
+  // A method that never folds does not overlap itself at a point, either: its mesh is too coarse.
+  const Deformation& own = workspace.shown.own();
+  const auto published = own.parameters.find("published");
+  const bool is_coarse = folds && method_named(own.method).never_folds &&
+                         (published == own.parameters.end() || published->second == 0);
   const int extra_turns = static_cast<int>(std::lround(found.turning_number)) - 1;
-  if (folds && extra_turns > 0)
+  if (is_coarse)
+    colored_text(c.warning, "The drawing mesh is too coarse here");
+  else if (folds && extra_turns > 0)
     colored_text(c.warning, "Overlaps itself at " + std::to_string(extra_turns) +
                                 (extra_turns == 1 ? " point" : " points"));
   if (const Points& marked = workspace.map().map().zeros; !marked.empty())
@@ -134,6 +141,7 @@ void injectivity_section(Workspace& workspace) {
             "The size that remains where the picture is compressed most, in the "
             "direction of the strongest compression. Below 0 %, it is flipped over.");
   }
+  if (is_coarse) return;
   details("Turning number " + std::to_string(std::lround(found.turning_number)),
           "How many times the edge of the picture turns: 1 unless the picture "
           "overlaps itself at a point or is flipped over.");

@@ -69,15 +69,16 @@ LogInterval::LogInterval(const LogSums& sums, const MeshLocator& locator, LogCur
       still_(std::move(still)),
       kept_(static_cast<Index>(std::max<size_t>(1, kept))) {
   const Mesh& mesh = sums.mesh();
+  std::vector<Line> lines;
   const auto place = [&](Complex z) {
     const int vertex = locator.vertex_near(z);
     anchors_.push_back(vertex);
-    placed_.push_back({mesh.vertices[static_cast<size_t>(vertex)], z});
+    lines.push_back({mesh.vertices[static_cast<size_t>(vertex)], z});
   };
   for (const Index i : still_) place(stations[static_cast<size_t>(i)]);
   if (still_.empty())
     place(least_moving_point(mesh, curve.from().f, curve.to().f).in(mesh, mesh.vertices));
-  lines_ = LineIntegrals(sums.basis(), placed_);
+  lines_ = LineIntegrals(sums.basis(), lines);
   from_ = measured(curve.from());
   to_ = measured(curve.to());
 }

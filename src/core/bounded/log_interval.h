@@ -38,7 +38,7 @@ struct LogCurve {
   const LogKey& to() const { return *keys[2]; }
 };
 
-/// Threads: const functions may run at the same time.
+/// The maps between two keys. Threads: const functions may run at the same time.
 class LogInterval {
  public:
   /// Stations that both ends hold stay within this fraction of the size of the straight line from
@@ -52,6 +52,7 @@ class LogInterval {
   LogInterval(const LogSums& sums, const MeshLocator& locator, LogCurve curve,
               const Points& stations, std::vector<Index> still, size_t kept);
 
+  /// A map between the keys.
   struct Blend {
     VectorXc f;
     Derivatives first;  ///< at the mesh's vertices
@@ -99,12 +100,11 @@ class LogInterval {
   /// Combinations of integrals that stay: around holes, and between stations that both ends hold.
   MatrixXd constant_;
   std::vector<Index> still_;
-  /// Points that move straight: still stations, the kept ones first, or one point. Each is at the
-  /// end of a line that starts at the vertex from which its images are integrated.
-  std::vector<Line> placed_;
-  Index kept_;  ///< the number of points that are held: kept stations, or the one point
-  std::vector<int> anchors_;  ///< these vertices
-  LineIntegrals lines_;
+  /// For each point that moves straight, the vertex from which its images are integrated: still
+  /// stations, the kept ones first, or one point.
+  std::vector<int> anchors_;
+  LineIntegrals lines_;  ///< from these vertices to the points
+  Index kept_;           ///< the number of points that are held: kept stations, or the one point
   /// At an end: the constant combinations, the images of the placed points, and the key's f minus
   /// what integration along the mesh gives. Blended, the latter is added to maps in between, so
   /// that these are as accurate.

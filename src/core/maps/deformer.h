@@ -83,7 +83,7 @@ class PointMap {
   virtual std::vector<Value> values_at(std::span<const Complex> points) const;
   /// Whether the map is linear in each triangle of the rest's mesh.
   virtual bool is_linear_in_triangles() const { return false; }
-  /// Whether f_z is an exponential, which is 0 nowhere, though it may be too small to tell.
+  /// Whether f_z is known to have no zeros inside, although it may be too small to tell.
   virtual bool has_no_zeros() const { return false; }
   /// Whether the map is put together from pieces, so that its second derivatives may jump.
   virtual bool is_piecewise() const { return false; }

@@ -12,12 +12,11 @@ std::string short_pin_text(size_t pin, double pixels) {
 }
 
 std::string sliding_pin_text(size_t pin, double pixels, bool turns) {
-  char text[160];
-  std::snprintf(text, sizeof text, ". Pin %d slides %.*f px: %s", static_cast<int>(pin) + 1,
-                pixels < 10 ? 1 : 0, pixels,
-                turns ? "a picture that makes whole turns can hold only one pin"
-                      : "no map was found that holds it within both keyframes' limits");
-  return text;
+  char distance[40] = "less than 0.1";
+  if (pixels >= 0.1) std::snprintf(distance, sizeof distance, "%.*f", pixels < 10 ? 1 : 0, pixels);
+  return ". Pin " + std::to_string(pin + 1) + " slides " + distance + " px: " +
+         (turns ? "a picture that makes whole turns can hold only one pin"
+                : "no map was found that holds it within both keyframes' limits");
 }
 
 std::string missed_pins_text(std::span<const size_t> pins, std::span<const Complex> offsets,

@@ -1,4 +1,5 @@
 // Motion of all parts of a picture: each part's own, put together at every moment.
+#include "core/methods/notes.h"
 #include "core/methods/sheet_parts.h"
 
 namespace holomorph {
@@ -19,7 +20,7 @@ class PartsInterval final : public MotionInterval {
     std::vector<MapOfPart> maps(parts_.size());
     const auto found = std::make_shared<BlendedParts>();
     found->parts.resize(parts_.size());
-    std::string note, unproved;
+    std::string note = kNoFoldsBetween, unproved;
     for (size_t p = 0; p < parts_.size(); ++p) {
       if (!parts_[p]) continue;
       SampledMap& map = maps[p].map = parts_[p]->at(u, measures);
@@ -29,10 +30,10 @@ class PartsInterval final : public MotionInterval {
       for (Index i = count; i < count + anchors; ++i)
         maps[p].anchors.push_back({map.f[i], map.fz[i], map.fzbar[i]});
       for (VectorXc* values : {&map.f, &map.fz, &map.fzbar}) values->conservativeResize(count);
-      if (map.status != SampledMap::Status::certified)
+      if (map.status == SampledMap::Status::certified)
+        note += map.note.substr(kNoFoldsBetween.size());
+      else if (unproved.empty())
         unproved = map.note;
-      else if (map.note.size() > note.size())  // if it says more than others, it names a pin
-        note = map.note;
     }
     SampledMap all = sheets_->merged(std::move(maps), true);
     all.note = unproved.empty() ? std::move(note) : std::move(unproved);

@@ -45,7 +45,7 @@ class ProvedInterval final : public MotionInterval {
                                                  : SampledMap::Status::infeasible;
     map.note = !blend.certified ? "Between keyframes: not proved"
                : flipped > 0    ? coarse_mesh_text(flipped)
-                                : "Between keyframes: no folds";
+                                : kNoFoldsBetween;
     if (blend.certified && blend.slide)
       map.note += sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)],
                                    blend.slide->distance, turns_);
@@ -77,8 +77,10 @@ class LogMotion final : public ProvedMotion {
     for (const size_t i : setting_.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
     if (to.turns == 0) turn_with_still_pins(keys, held);
+    const bool turns = makes_whole_turns(between_->mean_argument(keys[1]->map),
+                                         between_->mean_argument(keys[2]->map));
     return std::make_unique<ProvedInterval>(between_, setting_, std::move(keys), smooth, held,
-                                            to.turns != 0);
+                                            turns);
   }
 
   std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {

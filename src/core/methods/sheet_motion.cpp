@@ -1,9 +1,10 @@
-// At a key, the forces of the handles balance those of the sheet, nearly: a pin may be met exactly,
-// and not all keys are at rest. A load makes up for what is missing. In between, handles pull at
+// At a key, the forces of the handles almost balance those of the sheet: pins may be met exactly,
+// and the solver may have stopped early. A load adds what is missing. In between, handles pull at
 // the images that the blended map gives them with blended forces, and the loads are blended, so
 // that motion begins and ends at the maps of the keys.
 #include "core/methods/sheet_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/arithmetic.h"
@@ -26,9 +27,9 @@ struct SheetSetting {
 
 struct SheetKey {
   Inbetween::Shape shape;
-  SheetPull pull;
-  Points pins;  ///< their images
   double time = 0;
+  SheetPull pull = {};
+  Points pins = {};  ///< their images
 };
 
 /// A map between keys, at the vertices of the solver's mesh.
@@ -40,8 +41,9 @@ struct BlendedSheet final : Solution {
 /// What both ends of an interval do with a pin.
 enum class Held : char {
   no,
-  met,    ///< it has an exact place in between
-  slides  ///< both hold it, but a picture that makes whole turns can hold only one pin
+  still,   ///< both hold it at one target
+  slides,  ///< the same, but a picture that makes whole turns can hold only one pin
+  follows  ///< both meet their targets exactly: it has an exact place on the way of the picture
 };
 
 class SheetInterval final : public MotionInterval {
@@ -76,7 +78,7 @@ class SheetInterval final : public MotionInterval {
     SampledMap map = sheet.sampled(setting_->places, true);
     map.solution = found;
     if (sheet.is_proved() && measures) map.extremes = sheet.extremes();
-    map.note = sheet.is_proved() ? "Between keyframes: no folds" + sliding_text(u, sheet.map())
+    map.note = sheet.is_proved() ? kNoFoldsBetween + sliding_text(u, sheet.map())
                                  : "Between keyframes: not proved";
     return map;
   }
@@ -101,7 +103,7 @@ class SheetInterval final : public MotionInterval {
     double most = kStill * solver().domain().size;
     std::optional<size_t> farthest;
     for (size_t i = 0; i < held_.size(); ++i) {
-      if (held_[i] == Held::no) continue;
+      if (held_[i] != Held::still && held_[i] != Held::slides) continue;
       const Complex straight = (1 - share(u)) * keys_[1]->pins[i] + share(u) * keys_[2]->pins[i];
       const double off = std::abs(map.at(solver().handles().places()[i]).f - straight);
       if (off > most) most = off, farthest = i;
@@ -125,13 +127,14 @@ class SheetInterval final : public MotionInterval {
     for (size_t row = 0; row < all.pull.rows.size(); ++row) {
       auto& [target, spring] = all.pull.rows[row];
       spring = spring.firm();
+      const Held held = row < held_.size() ? held_[row] : Held::no;
       Complex place = solver().handles().image(row, f);
       // Each key may miss the target by a different amount: the pin moves straight.
-      if (row < held_.size() && held_[row] == Held::met && target == to.pull.rows[row].target)
+      if (held == Held::still)
         place = (1 - share(u)) * solver().handles().image(row, from.shape.f) +
                 share(u) * solver().handles().image(row, to.shape.f);
       target = place + ((1 - u) * force_at(from, row) + u * force_at(to, row)) / spring.weight;
-      if (row < held_.size() && held_[row] == Held::met) all.places[row] = place;
+      if (held == Held::still || held == Held::follows) all.places[row] = place;
     }
     all.pull.load = (1 - u) * from.pull.load + u * to.pull.load;
     return all;
@@ -156,12 +159,15 @@ class SheetMotion final : public ProvedMotion {
     std::array<std::optional<SheetKey>, 4> keys{key_of(before), key_of(&from), key_of(&to),
                                                 key_of(after)};
     if (!keys[1] || !keys[2]) return nullptr;
+    pull(from, *keys[1]);
+    pull(to, *keys[2]);
+    const auto rotation = [](const SheetKey& key) { return key.shape.logarithm.imag().mean(); };
+    const bool turns = makes_whole_turns(rotation(*keys[1]), rotation(*keys[2]));
     std::vector<Held> held;
-    bool any = false;
     for (size_t i = 0; i < setting_->solver->handles().pins().size(); ++i) {
-      const bool both = is_held(*keys[1], *keys[2], i);
-      held.push_back(!both ? Held::no : any && to.turns != 0 ? Held::slides : Held::met);
-      any = any || both;
+      held.push_back(held_by(*keys[1], *keys[2], i));
+      if (turns && held.back() == Held::still && std::ranges::count(held, Held::still) > 1)
+        held.back() = Held::slides;
     }
     return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(held));
   }
@@ -172,8 +178,8 @@ class SheetMotion final : public ProvedMotion {
   }
 
  private:
-  /// Whether a pin has one target, which it may miss, or meets its targets exactly.
-  bool is_held(const SheetKey& from, const SheetKey& to, size_t pin) const {
+  /// What both keys do with a pin. It may miss its only target.
+  Held held_by(const SheetKey& from, const SheetKey& to, size_t pin) const {
     constexpr double kMet = 1e-3;  // of the size
     const SheetSolver& solver = *setting_->solver;
     const auto is_at = [&](const SheetKey& key, Complex target) {
@@ -181,23 +187,28 @@ class SheetMotion final : public ProvedMotion {
       return std::abs(image - target) <= kMet * solver.domain().size;
     };
     const Complex first = from.pull.rows[pin].target, last = to.pull.rows[pin].target;
-    return first == last || (solver.settings().exact && is_at(from, first) && is_at(to, last));
+    if (first == last) return Held::still;
+    const bool meets = solver.settings().exact && is_at(from, first) && is_at(to, last);
+    return meets ? Held::follows : Held::no;
   }
   /// None if the key is not certified.
   std::optional<SheetKey> key_of(const MotionKey* key) const {
     if (!key || !key->extremes) return {};
-    const SheetSolver& solver = *setting_->solver;
     const auto* found = dynamic_cast<const SheetSolution*>(key->solution.get());
     if (!found || found->solver != setting_->solver) return {};
     Inbetween::Shape shape = setting_->between->shape_of(found->state.f, 0);
     const double turns = std::round((key->rotation - shape.logarithm.imag().mean()) / (2 * kPi));
     if (turns != 0) shape = setting_->between->shape_of(found->state.f, static_cast<int>(turns));
-    Points pins;
-    const ProvedSheet sheet(solver, found->state.f);
-    for (const Location& place : solver.handles().places()) pins.push_back(sheet.map().at(place).f);
-    SheetPull pull = solver.handles().pull(solver.handles().target(*key->pose), found->state.turns);
-    pull.load = solver.missing_load(pull, found->state.f);
-    return SheetKey{std::move(shape), std::move(pull), std::move(pins), key->time};
+    return SheetKey{std::move(shape), key->time};
+  }
+  /// Adds how the handles of a key pull, and where its pins are.
+  void pull(const MotionKey& key, SheetKey& own) const {
+    const SheetSolver& solver = *setting_->solver;
+    const auto& state = dynamic_cast<const SheetSolution&>(*key.solution).state;
+    own.pull = solver.handles().pull(solver.handles().target(*key.pose), state.turns);
+    own.pull.load = solver.missing_load(own.pull, state.f);
+    const ProvedSheet sheet(solver, state.f);
+    for (const Location& at : solver.handles().places()) own.pins.push_back(sheet.map().at(at).f);
   }
 
   std::shared_ptr<const SheetSetting> setting_;

@@ -13,9 +13,9 @@
 namespace holomorph {
 namespace {
 
-/// Relative to the largest stiffness: keeps the matrix definite where nothing resists a motion, as
-/// rotations about a single pin. The first is so small that the tip of a long, thin limb gets to
-/// its place in few steps; the second is for matrices that rounding errors make indefinite.
+/// Relative to the largest stiffness: keeps the matrix definite where nothing resists a motion,
+/// such as rotation about a single pin. The first is so small that the tip of a long, thin limb
+/// gets to its place in few steps; the second is for matrices that rounding errors make indefinite.
 constexpr std::array kLeastStiffness{1e-14, 1e-10};
 
 using Matrix = Eigen::SparseMatrix<double>;
@@ -53,6 +53,12 @@ Eigen::Matrix2d hessian_of(const Spring& spring, Complex off, bool projected) {
   if (!projected)
     hessian += 4 * spring.curvature(std::norm(off)) * vector(off) * vector(off).transpose();
   return hessian;
+}
+
+double work_of(const VectorXc& load, const VectorXc& f) {
+  double sum = 0;
+  for (Index v = 0; v < load.size(); ++v) sum += dot(load[v], f[v]);
+  return sum;
 }
 
 }  // namespace
@@ -114,8 +120,7 @@ double SheetProgram::value(const VectorXc& f, const SheetPull& pull) const {
     sum += pull.rows[r].spring.value(std::norm(holds_.rows[r].image(f) - pull.rows[r].target));
   for (const VertexPull& at : pull.vertices)
     sum += at.spring.value(std::norm(f[at.vertex] - at.target));
-  for (Index v = 0; v < pull.load.size(); ++v) sum -= dot(pull.load[v], f[v]);
-  return sum;
+  return sum - work_of(pull.load, f);
 }
 
 VectorXd SheetProgram::gradient(const VectorXc& f, const SheetPull& pull) const {
@@ -191,13 +196,14 @@ SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool p
   check(pull.rows.size() == holds_.rows.size(), "sheet: a target for each row");
   const double before = value(f, pull);
   const std::lock_guard lock(factor_->in_use);
-  if ((projected || !factorize(pull, f, false)) && !factorize(pull, f, true)) return {before, 0, 0};
+  if ((projected || !factorize(pull, f, false)) && !factorize(pull, f, true))
+    return {before, before + work_of(pull.load, f), 0, 0};
   const VectorXd slopes = gradient(f, pull), down = factor_->solver.solve(-slopes);
   VectorXc d(f.size());
   for (Index v = 0; v < d.size(); ++v) d[v] = {down[2 * v], down[2 * v + 1]};
   constexpr double kFlipShare = 0.9, kArmijo = 1e-4, kShortest = 1e-10;
   const double slope = slopes.dot(down);
-  Step step{before, -0.5 * slope, 0};
+  Step step{before, 0, -0.5 * slope, 0};
   for (double length = std::min(1.0, kFlipShare * energy_->first_flip(f, d)); length > kShortest;
        length *= 0.5) {
     VectorXc there = f + length * d;
@@ -208,19 +214,21 @@ SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool p
     step.length = length;
     break;
   }
+  step.energy = step.value + work_of(pull.load, f);
   return step;
 }
 
 SheetProgram::Step SheetProgram::minimize(const SheetPull& pull, VectorXc& f, int most,
                                           const std::function<void(const VectorXc&)>& after,
                                           double tolerance, bool is_near) const {
-  constexpr double kNear = 1e-2;  // of the value: a decrement from which on true Hessians are tried
+  constexpr double kNear =
+      1e-2;  // of the energy: a decrement from which on true Hessians are tried
   Step last;
   for (int i = 0; i < most; ++i) {
     last = step(pull, f, !is_near);
     if (after) after(f);
-    is_near = last.length > 0.5 && last.decrement <= kNear * last.value;
-    if (last.length == 0 || last.decrement <= tolerance * last.value) break;
+    is_near = last.length > 0.5 && last.decrement <= kNear * last.energy;
+    if (last.length == 0 || last.decrement <= tolerance * last.energy) break;
   }
   return last;
 }

@@ -59,6 +59,7 @@ class SheetProgram {
 
   struct Step {
     double value = 0;      ///< after the step
+    double energy = 0;     ///< the same without the work of the load, which may be negative
     double decrement = 0;  ///< by how much the quadratic model expected the value to fall
     double length = 0;     ///< the part of the Newton step that was taken; 0: none lowers the value
   };
@@ -67,9 +68,9 @@ class SheetProgram {
   /// (Armijo). With `projected`, the Hessians of triangles are made semidefinite, and those of
   /// springs are replaced by larger ones, so that no step goes too far, which is faster
   /// far from the minimum. Without it, Newton's method converges quadratically; where the matrix is
-  /// not definite, the step is as with it. Cost: one or two sparse factorizations.
+  /// not definite, the step is as with it. Cost: one to three sparse factorizations.
   Step step(const SheetPull& pull, VectorXc& f, bool projected) const;
-  /// Steps until the decrement is at most `tolerance` times the value, or at most `most` times.
+  /// Steps until the decrement is at most `tolerance` times the energy, or at most `most` times.
   /// Calls `after`, if there is one, with the map after each step. `is_near`: the first step, too,
   /// need not be projected.
   Step minimize(const SheetPull& pull, VectorXc& f, int most,
