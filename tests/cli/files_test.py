@@ -59,7 +59,19 @@ class Files(Case):
             return file.read()
 
     def test_pipes_and_links_are_written_into_by_every_command(self):
-        for extension, words in self.writers():
+        self.check_pipes_and_links([each for each in self.writers() if each[1][0] != "export"])
+
+    def test_pipes_and_links_are_written_into_by_exports_of_meshes_and_pictures(self):
+        self.check_pipes_and_links(self.exporters()[:9])
+
+    def test_pipes_and_links_are_written_into_by_exports_of_layers_and_films(self):
+        self.check_pipes_and_links(self.exporters()[9:])
+
+    def exporters(self):
+        return [each for each in self.writers() if each[1][0] == "export"]
+
+    def check_pipes_and_links(self, writers):
+        for extension, words in writers:
             with self.subTest(words=words):
                 plain, pipe, link, far, near, got = (self.path(n + extension) for n in
                                                      ("plain", "pipe", "link", "far", "near", "got"))
