@@ -16,13 +16,21 @@ bool in_menu() {
          (open.back().Window->Flags & ImGuiWindowFlags_Modal) == 0;
 }
 
+/// Whether the last item is disabled.
+bool is_disabled() {
+  return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
+}
+
 bool begin_tooltip() {
   if (tooltips_suppressed || in_menu() ||
       !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     return false;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(12), px(8)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(8));
-  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha);
+  // What is disabled is faint, but its tooltip is not.
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, is_disabled()
+                                               ? ImGui::GetCurrentContext()->DisabledAlphaBackup
+                                               : ImGui::GetStyle().Alpha);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kTooltipWidth * ImGui::GetFontSize());
   return true;
@@ -69,8 +77,7 @@ void tooltip(const std::string& text) {
 }
 
 void tooltip_of(const Action& action) {
-  const bool disabled =
-      (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
+  const bool disabled = is_disabled();
   if (!begin_tooltip()) return;
   ImGui::TextUnformatted(action.label.c_str());
   if (!action.keys.empty()) {

@@ -66,6 +66,7 @@ std::vector<Action> cage_actions() {
           .label = "Make from picture",
           .hint = "Fit a cage to the outline of the picture",
           .icon = icon_named("outline"),
+          .needs = kNeedsPicture,
           .enabled = has_image,
           .run = cage_from_picture,
       },
@@ -74,6 +75,7 @@ std::vector<Action> cage_actions() {
           .label = "Place",
           .hint = "Put a box around the picture, to move, scale and rotate it",
           .icon = icon_named("fit"),
+          .needs = kNeedsPicture,
           .enabled = has_image,
           .run = make_box,
       },
@@ -92,6 +94,7 @@ std::vector<Action> cage_actions() {
           .label = "Smooth or corner",
           .hint = "Make the selected points smooth, or corners if all are smooth",
           .keys = {'C'},
+          .needs = "Needs a selected point of the cage",
           .enabled = has_cage_selection,
           .run = toggle_corners,
       },
@@ -99,6 +102,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.all_corners",
           .label = "All points as corners",
           .hint = "Let the Angles tool turn and open every point",
+          .needs = "All points of the cage are corners already",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
           .run =
               [](Workspace& w) {
@@ -109,6 +113,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.fill",
           .label = "Fill holes",
           .hint = "Remove the holes with selected points, or all holes of the cage",
+          .needs = "Needs a cage with a hole",
           .enabled = [](const Workspace& w) { return w.shown.deformation().rest.has_holes(); },
           .run =
               [](Workspace& w) {
@@ -120,6 +125,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.bake",
           .label = "Apply pins to cage",
           .hint = "Give the cage the pose made by the pins, and switch to the Cage method",
+          .needs = "Needs pins that move a cage",
           .enabled =
               [](const Workspace& w) {
                 return w.shown.deformation().has_cage() &&
@@ -155,6 +161,7 @@ std::vector<Action> cage_actions() {
           .label = "Prevent folds",
           .hint = "Keep the picture within limits of size and shape, so that nothing folds",
           .icon = icon_named("check"),
+          .needs = "Needs a cage, and a method that may fold",
           .enabled =
               [](const Workspace& w) {
                 return has_cage(w) && can_prevent_folds(chosen_method(w.shown.deformation()));
@@ -166,6 +173,7 @@ std::vector<Action> cage_actions() {
           .id = "map.play",
           .label = "Play iterations",
           .hint = "Watch the map converge",
+          .needs = "Needs a map that is found in steps",
           .enabled = converges,
           .run =
               [](Workspace& w) {
@@ -178,6 +186,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "map.step",
           .label = "Next iteration",
+          .needs = "Needs a map that is found in steps",
           .enabled = [](const Workspace& w) { return converges(w) && w.playback.iteration; },
           .run =
               [](Workspace& w) {
@@ -190,6 +199,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "map.restart",
           .label = "First iteration",
+          .needs = "Needs a map that is found in steps",
           .enabled = converges,
           .run = [](Workspace& w) { w.playback = {0}; },
       },

@@ -107,6 +107,7 @@ void add_nudges(std::vector<Action>& all, const std::string& where, Key key) {
     all.push_back({.id = "edit.nudge_" + where + id,
                    .label = "Nudge " + where + by,
                    .keys = {{key, mods}},
+                   .needs = kNeedsSelection,
                    .enabled = has_selection,
                    .run = run});
   };
@@ -140,6 +141,7 @@ std::vector<Action> edit_actions() {
           .label = "Undo",
           .icon = icon_named("undo"),
           .keys = {{'Z', kCtrl}},
+          .needs = "There is nothing to undo",
           .enabled = can_undo,
           .run = undo,
       },
@@ -148,6 +150,7 @@ std::vector<Action> edit_actions() {
           .label = "Redo",
           .icon = icon_named("redo"),
           .keys = {{'Z', kCtrlShift}, {'Y', kCtrl}},
+          .needs = "There is nothing to redo",
           .enabled = can_redo,
           .run = redo,
       },
@@ -163,6 +166,7 @@ std::vector<Action> edit_actions() {
           .id = "edit.select_none",
           .label = "Select none",
           .keys = {{'D', kCtrl}},
+          .needs = kNeedsSelection,
           .enabled = has_selection,
           .run = [](Workspace& w) { w.selection.clear(); },
       },
@@ -172,6 +176,7 @@ std::vector<Action> edit_actions() {
           .hint = "Delete the selected points, pins, strokes or keyframe",
           .icon = icon_named("trash"),
           .keys = {Key::del, Key::backspace},
+          .needs = kNeedsSelection,
           .enabled = can_erase,
           .run = erase_selection<Refit::curve>,
       },
@@ -180,6 +185,7 @@ std::vector<Action> edit_actions() {
           .label = "Delete, keep tangents",
           .hint = "Delete points without refitting the curve; the neighbors keep their tangents",
           .keys = {{Key::del, kShift}},
+          .needs = kNeedsSelection,
           .enabled = has_selection,
           .run = erase_selection<Refit::tangents>,
       },
@@ -249,6 +255,7 @@ std::vector<Action> edit_actions() {
           .label = "Untwist",
           .hint =
               "Discard the stored rotations of parts and use the pose with the least distortion",
+          .needs = "Needs pins that have turned",
           .enabled = has_turns,
           .run = untwist,
       },
@@ -256,6 +263,7 @@ std::vector<Action> edit_actions() {
           .id = "edit.remove_stiffness",
           .label = "Remove stiffness",
           .hint = "Clear everything that the brush painted",
+          .needs = "Needs painted stiffness",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().stiffness.empty(); },
           .run =
               [](Workspace& w) {
@@ -268,6 +276,7 @@ std::vector<Action> edit_actions() {
           .id = "edit.remove_outline",
           .label = "Remove outline",
           .hint = "Return to the cage and pins",
+          .needs = "Needs a drawn outline",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().outline.empty(); },
           .run =
               [](Workspace& w) {
@@ -284,6 +293,7 @@ std::vector<Action> edit_actions() {
           .label = "Bring pin forward",
           .hint = "Draw the parts near the pin over other parts",
           .keys = {{Key::page_up, kShift}},
+          .needs = "Needs a selected pin",
           .enabled = has_pin,
           .run = change_depth<1>,
       },
@@ -292,6 +302,7 @@ std::vector<Action> edit_actions() {
           .label = "Send pin back",
           .hint = "Draw the parts near the pin under other parts",
           .keys = {{Key::page_down, kShift}},
+          .needs = "Needs a selected pin",
           .enabled = has_pin,
           .run = change_depth<-1>,
       },
@@ -300,6 +311,7 @@ std::vector<Action> edit_actions() {
           .label = "Hold the rest",
           .hint = "Set pins far from a single one. In a photograph, hold what is far from all pins",
           .icon = icon_named("pin"),
+          .needs = "Needs a pin, and the mode Pose",
           .enabled = can_hold_rest,
           .run = hold_rest,
       },
@@ -308,6 +320,7 @@ std::vector<Action> edit_actions() {
           .label = "Let the rest go",
           .hint = "Let the pins move all of the photograph again",
           .icon = icon_named("pin"),
+          .needs = "Needs a photograph in which pins hold the rest",
           .enabled =
               [](const Workspace& w) {
                 return can_choose_frame(w) && w.shown.deformation().held_beyond.has_value();
@@ -318,6 +331,7 @@ std::vector<Action> edit_actions() {
           .id = "edit.free_angle",
           .label = "Free rotation",
           .hint = "The selected pins no longer fix rotation and scale",
+          .needs = "Needs a selected pin whose rotation is fixed",
           .enabled = has_turned_pin,
           .run = free_pin_angles,
       },

@@ -22,7 +22,12 @@ inline constexpr Modifiers kCtrl{true, false, false}, kShift{false, true, false}
 inline bool always(const Workspace&) {
   return true;
 }
+// Texts for several actions that are disabled.
+inline constexpr char kNeedsPicture[] = "Needs a picture: open one first";
 inline constexpr char kNeedsCage[] = "Needs a cage: draw one, or set a pin on a picture";
+inline constexpr char kNeedsSelection[] = "Needs a selection";
+inline constexpr char kNeedsSurface[] = "Needs a surface: open an OBJ file";
+
 inline bool has_cage(const Workspace& w) {
   return w.shown.deformation().has_cage();
 }

@@ -243,6 +243,7 @@ std::vector<Action> time_actions() {
           .label = "Loop",
           .hint = "Start again after the last keyframe or frame",
           .icon = icon_named("loop"),
+          .needs = "Needs a cage, or a film",
           .enabled = [](const Workspace& w) { return has_cage(w) || has_frames(w); },
           .run = [](Workspace& w) { w.shown.timeline.loop = !w.shown.timeline.loop; },
           .checked = [](const Workspace& w) { return w.shown.timeline.loop; },

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "edit/actions/actions.h"
+#include "edit/actions/groups.h"
 #include "edit/actions/icons.h"
 #include "support/catch.h"
 
@@ -57,6 +58,14 @@ TEST_CASE("Each action is in one menu, and no level has more than twelve entries
     INFO(action.id);
     const bool is_key_only = action.id.starts_with("edit.nudge_") || !action.run;
     CHECK(actions.contains(action.id) == !is_key_only);
+  }
+}
+
+TEST_CASE("Each action that can be disabled says what it needs") {
+  const ActionTable table;
+  for (const Action& action : table.rows()) {
+    INFO(action.id);
+    CHECK((action.enabled == always || *action.needs));
   }
 }
 
