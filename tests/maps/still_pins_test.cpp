@@ -50,6 +50,26 @@ Deformation random_swing(const std::string& method, std::mt19937& random) {
   return deformation;
 }
 
+/// The first two pins of a film with two keys, which hold both.
+class StillPins {
+ public:
+  StillPins(TimedMap& timed, const Deformation& film)
+      : timed_(timed),
+        places_{film.pins[0].rest, film.pins[1].rest},
+        from_(timed.at(timed.frame(0), places_).f),
+        to_(timed.at(timed.frame(1), places_).f) {}
+
+  /// How far they are from their straight ways, on which this share lies behind them.
+  VectorXc off(const TimedFrame& at, double share) const {
+    return timed_.at(at, places_).f - (1 - share) * from_ - share * to_;
+  }
+
+ private:
+  TimedMap& timed_;
+  Points places_;
+  VectorXc from_, to_;
+};
+
 void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) {
   int pairs = 0, sliding = 0;
   for (const unsigned seed : seeds) {
@@ -60,8 +80,7 @@ void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) 
     if (is_smooth) deformation.keyframes[0].ease = Ease::smooth;
     TimedMap timed(deformation);
     const double size = box_of(timed.mesh().vertices).diagonal();
-    const Points still{deformation.pins[0].rest, deformation.pins[1].rest};
-    const VectorXc from = timed.at(timed.frame(0), still).f, to = timed.at(timed.frame(1), still).f;
+    const StillPins still(timed, deformation);
     if (timed.on_mesh(timed.frame(0)).status != SampledMap::Status::certified ||
         timed.on_mesh(timed.frame(1)).status != SampledMap::Status::certified)
       continue;
@@ -72,7 +91,7 @@ void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) 
       const double u = static_cast<double>(frame) / frames, share = is_smooth ? smoothstep(u) : u;
       const TimedFrame at = timed.frame(u);
       if (at.between.status != SampledMap::Status::certified) continue;
-      const VectorXc off = timed.at(at, still).f - (1 - share) * from - share * to;
+      const VectorXc off = still.off(at, share);
       const auto names = [&](Index pin) {
         const std::string text = "Pin " + std::to_string(pin + 1) + " slides";
         return at.between.note.find(text) != std::string::npos;
@@ -105,14 +124,12 @@ TEST_CASE("A bar that swings from side to side keeps its held end") {
       std::mt19937 random(seed);
       const Deformation swing = random_swing(method, random);
       TimedMap timed(swing);
-      const Points still{swing.pins[0].rest, swing.pins[1].rest};
-      const VectorXc from = timed.at(timed.frame(0), still).f,
-                     to = timed.at(timed.frame(1), still).f;
+      const StillPins still(timed, swing);
       for (const double u : {0.25, 0.5}) {
         const TimedFrame at = timed.frame(u);
         INFO("at " << u << ": " << at.between.note);
         CHECK(at.between.status == SampledMap::Status::certified);
-        const VectorXc off = timed.at(at, still).f - (1 - u) * from - u * to;
+        const VectorXc off = still.off(at, u);
         CHECK(off.cwiseAbs().maxCoeff() <= 1e-4 * 408);
       }
     }
@@ -151,14 +168,12 @@ TEST_CASE("A picture that makes whole turns holds one pin, and the note names an
       Deformation swing = random_swing(method, random);
       swing.keyframes[1].turns = 1;
       TimedMap timed(swing);
-      const Points still{swing.pins[0].rest, swing.pins[1].rest};
-      const VectorXc from = timed.at(timed.frame(0), still).f,
-                     to = timed.at(timed.frame(1), still).f;
+      const StillPins still(timed, swing);
       for (const double u : {0.2, 0.5}) {
         const TimedFrame at = timed.frame(u);
         INFO("at " << u << ": " << at.between.note);
         REQUIRE(at.between.status == SampledMap::Status::certified);
-        const VectorXc off = timed.at(at, still).f - (1 - u) * from - u * to;
+        const VectorXc off = still.off(at, u);
         CHECK(std::abs(off[0]) <= 1e-4 * 408);
         CHECK(std::abs(off[1]) > 1e-4 * 408);
         CHECK_THAT(at.between.note,

@@ -5,9 +5,9 @@
 // nu deviate from the chord of their values by at most an eighth of their largest second
 // derivative. The bounds on shear and on the smallest size are convex in (Re l, |nu|). The largest
 // size, e^(Re l) (1 + |nu|), exceeds its values at both samples by at most a quarter of the product
-// of the changes of its factors, if these are opposite. This follows Levi and Weber (2016), with
-// second derivatives in closed form. The same holds with Psi' in place of nu, except that |f_z|
-// also deviates from its chord, by at most an eighth of its own second derivative.
+// of the changes of its factors, if one grows and the other shrinks. This follows Levi and Weber
+// (2016), with second derivatives in closed form. The same holds with Psi' in place of nu, except
+// that |f_z| also deviates from its chord, by at most an eighth of its own second derivative.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/arithmetic.h"
-#include "core/mesh/inbetween.h"
 
 namespace holomorph {
 namespace {

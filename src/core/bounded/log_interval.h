@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/bounded/log_sums.h"
+#include "core/mesh/inbetween.h"
 #include "core/mesh/locator.h"
 
 namespace holomorph {
@@ -41,9 +42,6 @@ struct LogCurve {
 /// The maps between two keys. Threads: const functions may run at the same time.
 class LogInterval {
  public:
-  /// Stations that both ends hold stay within this fraction of the size of the straight line from
-  /// their place in one key to their place in the other, unless the frame has a `slide`.
-  static constexpr double kStill = 1e-4;
   /// By how much the largest size may grow between keys. Without corrections, it is 6 % at most.
   static constexpr double kGrowth = 0.3;
 
@@ -63,8 +61,8 @@ class LogInterval {
     /// If they are measured, and both keys are in the space L_nu.
     std::optional<Extremes> extremes;
     /// The station that is farthest from its place although both keys hold it, and its distance
-    /// from there, if that is more than kStill of the size: it is not kept, or no larger correction
-    /// could be proved.
+    /// from there, if it is not still (kStill): it is not kept, or no larger correction could be
+    /// proved.
     struct Slide {
       Index station;
       double distance;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,6 +18,15 @@
 #include "core/mesh/mesh.h"
 
 namespace holomorph {
+
+/// A pin that both of two keys hold is still between them if it stays within this fraction of the
+/// size of the straight line from its image in one key to its image in the other.
+inline constexpr double kStill = 1e-4;
+/// Whether a picture makes whole turns between two keys with these average rotations, in radians.
+/// It can then hold only one pin.
+inline bool makes_whole_turns(double from, double to) {
+  return std::abs(to - from) > kPi;
+}
 
 /// The expected rotation from one map to the next: the rotation of the triangle that contains a
 /// given rest point or, without a point, the average rotation.

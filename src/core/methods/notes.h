@@ -1,7 +1,6 @@
 // Notes that the methods without folds share.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,11 +19,6 @@ std::string missed_pins_text(std::span<const size_t> pins, std::span<const Compl
                              double least);
 /// The note of a proved frame between keyframes. Texts about sliding pins may follow.
 inline const std::string kNoFoldsBetween = "Between keyframes: no folds";
-/// Whether a picture makes whole turns between two keys with these average rotations, in radians.
-/// It can then hold only one pin.
-inline bool makes_whole_turns(double from, double to) {
-  return std::abs(to - from) > kPi;
-}
 /// A pin that leaves the place where both keyframes hold it, by so many pixels. `turns`: because
 /// the picture makes whole turns.
 std::string sliding_pin_text(size_t pin, double pixels, bool turns);

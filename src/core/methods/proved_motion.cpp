@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/maps/distortion.h"
+#include "core/mesh/inbetween.h"
 #include "core/methods/bounded_points.h"
 #include "core/methods/notes.h"
 

@@ -99,7 +99,6 @@ class SheetInterval final : public MotionInterval {
   /// Names the pin that is farthest from its straight way between its images at the ends, if both
   /// hold it.
   std::string sliding_text(double u, const SmoothMap& map) const {
-    constexpr double kStill = 1e-4;  // of the size
     double most = kStill * solver().domain().size;
     std::optional<size_t> farthest;
     for (size_t i = 0; i < held_.size(); ++i) {
