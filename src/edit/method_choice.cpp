@@ -63,6 +63,8 @@ void choose_method(Workspace& w, const std::string& id) {
   if (pins_act_alone(chosen_method(before), before) && !pins_act_alone(method, before) &&
       map.has_map() && map.posed() && same_rest(*map.posed(), before))
     pose_cage_as_displayed(w, after);
+  if (after.rest != before.rest)  // parts were joined: numbers name other points
+    std::erase_if(w.selection, [](const Handle& h) { return h.kind == Handle::Kind::cage; });
   w.commit("Method: " + method.label, std::move(after), EditBase::document);
 }
 

@@ -21,8 +21,9 @@ double eased(Ease ease, double u) {
 }
 
 /// The expected rotation of the picture from one pose to another, including whole turns. It is the
-/// rotation of the first pin with an angle, or else of the first pin with known turns, or else the
-/// average rotation of the corners.
+/// rotation of the first pin with an angle, or else of the first pin with known turns. If two pins
+/// or more stay, the first of them turns as little as possible. Otherwise, it is the average
+/// rotation of the corners.
 ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from, const Pose& to,
                                int turns) {
   ExpectedTurn expected;
@@ -40,6 +41,10 @@ ExpectedTurn expected_rotation(const Deformation& deformation, const Pose& from,
     for (size_t i = 0; i < deformation.pins.size(); ++i)
       if (from.pins[i].turn && to.pins[i].turn)
         return rotated_by(i, *to.pins[i].turn - *from.pins[i].turn);
+    std::vector<size_t> still;
+    for (size_t i = 0; i < deformation.pins.size(); ++i)
+      if (from.pins[i].position == to.pins[i].position) still.push_back(i);
+    if (still.size() > 1) return rotated_by(still.front(), 0);
   }
   if (!method.uses_corners || deformation.corners.empty()) return expected;
   const auto turned = [](const Pose& pose) {
@@ -318,6 +323,12 @@ double Motion::rotation_between(double from, double to) {
   return rotation;
 }
 
+double Motion::shortest_rotation(double from, double to, const ExpectedTurn& expected) {
+  const Inbetween::Shape start = between_->shape_of(map_at(from)),
+                         end = between_->shape_after(start, between_->shape_of(map_at(to)), expected);
+  return (end.logarithm - start.logarithm).imag().mean();
+}
+
 void preserve_turns(Deformation& deformation, const Deformation& before, Motion& motion) {
   const auto is_new = [&](const Keyframe& key) {
     return key_at(before, key.time) == before.keyframes.size();
@@ -333,10 +344,11 @@ void preserve_turns(Deformation& deformation, const Deformation& before, Motion&
     Keyframe& to = deformation.keyframes[playing[i]];
     if ((!is_new(from) && !is_new(to)) || !motion.covers(from.time) || !motion.covers(to.time))
       continue;
-    const double given = expected_rotation(before, pose_at(from), pose_at(to), 0).radians,
-                 beyond = motion.rotation_between(from.time, to.time) - given;
-    const int turns = static_cast<int>(std::abs(beyond) / (2 * kPi) + 0.5 + kTie);
-    to.turns = std::min(turns, kMaxTurns) * (beyond < 0 ? -1 : 1);
+    const double shortest = motion.shortest_rotation(
+        from.time, to.time, expected_rotation(before, pose_at(from), pose_at(to), 0));
+    const double turns =
+        std::round((motion.rotation_between(from.time, to.time) - shortest) / (2 * kPi));
+    to.turns = static_cast<int>(std::clamp<double>(turns, -kMaxTurns, kMaxTurns));
   }
 }
 
@@ -353,8 +365,7 @@ const MotionInterval* Motion::interval_from(size_t key) {
   for (size_t k = first; k <= last; ++k) {
     const Key& own = keys_[k];
     poses.push_back(used_by(method_named(prepared_->method), own.pose));
-    keys.push_back({own.solution, own.extremes, &poses.back(), &own.f, rotation, own.time,
-                    k > 0 ? keys_[k].turns : 0});
+    keys.push_back({own.solution, own.extremes, &poses.back(), &own.f, rotation, own.time});
     if (k < last) rotation += rotation_after(k);
   }
   const size_t at = key - first;

@@ -50,6 +50,27 @@ Deformation random_swing(const std::string& method, std::mt19937& random) {
   return deformation;
 }
 
+/// A long bar whose left end is held by two pins, and which curls up to both sides by 3.4 to 4.4
+/// radians. On average, the picture turns by more than pi, which is no whole turn.
+Deformation random_curl(const std::string& method, std::mt19937& random) {
+  Deformation deformation;
+  deformation.rest = deformation.pose = polygon_cage(shapes::rectangle(800, 50));
+  deformation.method = method;
+  for (const double x : {20.0, 80.0, 200.0, 320.0, 440.0, 560.0, 680.0, 780.0})
+    deformation.pins.push_back({{x, 25}, {x, 25}, {}, {}});
+  const double reach = 3.4 + std::abs(random_complex(random).real());
+  for (const double side : {1.0, -1.0}) {
+    for (Pin& pin : deformation.pins) {
+      const double along = pin.rest.real() - 80, curvature = side * reach / 720;
+      if (along > 0)
+        pin.pose = Complex(80, 25) + (std::polar(1.0, curvature * along) - 1.0) / (kI * curvature);
+    }
+    deformation.keyframes.push_back(
+        {side > 0 ? 0.0 : 1.0, whole_pose_of(deformation), Ease::linear});
+  }
+  return deformation;
+}
+
 /// The first two pins of a film with two keys, which hold both.
 class StillPins {
  public:
@@ -59,7 +80,7 @@ class StillPins {
         from_(timed.at(timed.frame(0), places_).f),
         to_(timed.at(timed.frame(1), places_).f) {}
 
-  /// How far they are from their straight ways, on which this share lies behind them.
+  /// How far they are from their straight paths at this fraction of the motion.
   VectorXc off(const TimedFrame& at, double share) const {
     return timed_.at(at, places_).f - (1 - share) * from_ - share * to_;
   }
@@ -101,7 +122,7 @@ void check_pairs(const std::string& method, const std::vector<unsigned>& seeds) 
       const double most = off.cwiseAbs().maxCoeff(&worst);
       if (most > 1e-4 * size) {
         slides = true;
-        // With two pins on different ways, the picture is placed between them.
+        // With two pins on different paths, the picture is placed between them.
         const bool is_tie = std::abs(off[1 - worst]) > 0.999 * most;
         CHECK((names(worst) || (is_tie && names(1 - worst))));
       } else {
@@ -131,6 +152,28 @@ TEST_CASE("A bar that swings from side to side keeps its held end") {
         CHECK(at.between.status == SampledMap::Status::certified);
         const VectorXc off = still.off(at, u);
         CHECK(off.cwiseAbs().maxCoeff() <= 1e-4 * 408);
+      }
+    }
+}
+
+TEST_CASE("A bar that curls up to one side and then to the other keeps its held end") {
+  for (const unsigned seed : seeds_of("curls", {1}))
+    for (const std::string method : {"puppet", "bounded", "sheet"}) {
+      INFO(method << ", seed " << seed);
+      std::mt19937 random(seed);
+      const Deformation curl = random_curl(method, random);
+      TimedMap timed(curl);
+      REQUIRE(timed.on_mesh(timed.frame(0)).extremes);
+      REQUIRE(timed.on_mesh(timed.frame(1)).extremes);
+      const StillPins still(timed, curl);
+      for (const double u : {0.25, 0.5}) {
+        const TimedFrame at = timed.frame(u);
+        INFO("at " << u << ": " << at.between.note);
+        CHECK(at.between.status == SampledMap::Status::certified);
+        CHECK(still.off(at, u).cwiseAbs().maxCoeff() <= 1e-4 * 802);
+        CHECK_THAT(at.between.note, !Catch::Contains("slides"));
+        const Complex tip = timed.at(at, Points{{780, 25}}).f[0];
+        if (u == 0.5) CHECK(tip.real() > 600);  // it has not gone around the held end
       }
     }
 }

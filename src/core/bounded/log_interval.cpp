@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/arithmetic.h"
+#include "core/maps/still_pins.h"
 
 namespace holomorph {
 namespace {
@@ -100,7 +101,7 @@ bool LogInterval::certifies(LogSum& sum, LogMap change) const {
 bool LogInterval::certifies(LogSum& sum, LogMap change, const Kept& kept) const {
   if (!certifies(sum, std::move(change))) return false;
   const VectorXc off = sums_->misses(kept, sum);
-  return off.size() == 0 || off.cwiseAbs().maxCoeff() <= 0.1 * kStill * sums_->size();
+  return off.size() == 0 || off.cwiseAbs().maxCoeff() <= 0.1 * kStillPin * sums_->size();
 }
 
 /// Starts at several changes between the least one and a change of l alone, which does not increase
@@ -223,7 +224,7 @@ LogInterval::Blend LogInterval::at(double u, bool measures) const {
   // Integration along the mesh is less accurate, and a pass that gets only partway still helps the
   // next one.
   constexpr int kPasses = 3;
-  constexpr double kClose = 0.1 * kStill;
+  constexpr double kClose = 0.1 * kStillPin;
   VectorXc off = misses(sum, share, blend.f);
   for (int pass = 0; pass < kPasses && blend.certified && kept_ > 1; ++pass) {
     if (off.head(kept_).cwiseAbs().maxCoeff() <= kClose * sums_->size()) break;
@@ -239,7 +240,7 @@ LogInterval::Blend LogInterval::at(double u, bool measures) const {
     off = misses(sum, share, blend.f);
   }
   Index worst = 0;
-  if (!still_.empty() && off.cwiseAbs().maxCoeff(&worst) > kStill * sums_->size())
+  if (!still_.empty() && off.cwiseAbs().maxCoeff(&worst) > kStillPin * sums_->size())
     blend.slide = Blend::Slide{still_[static_cast<size_t>(worst)], std::abs(off[worst])};
   if (measures && blend.certified && sum.is_nu())
     blend.extremes = sums_->certifier().extremes(sum.single());

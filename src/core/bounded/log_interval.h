@@ -42,7 +42,7 @@ struct LogCurve {
 /// The maps between two keys. Threads: const functions may run at the same time.
 class LogInterval {
  public:
-  /// By how much the largest size may grow between keys. Without corrections, it is 6 % at most.
+  /// By how much the largest size may grow between keys. Without corrections, it is 6.2 % at most.
   static constexpr double kGrowth = 0.3;
 
   /// `stations` are all stations, and `still` lists those that both ends hold. Only the first
@@ -61,7 +61,7 @@ class LogInterval {
     /// If they are measured, and both keys are in the space L_nu.
     std::optional<Extremes> extremes;
     /// The station that is farthest from its place although both keys hold it, and its distance
-    /// from there, if it is not still (kStill): it is not kept, or no larger correction could be
+    /// from there, if it is not still (kStillPin): it is not kept, or no larger correction could be
     /// proved.
     struct Slide {
       Index station;
@@ -78,7 +78,12 @@ class LogInterval {
 
  private:
   using Kept = LogSums::Kept;
-  struct End;
+  /// At an end: the constant combinations, the images of the placed points, and the key's f minus
+  /// what integration along the mesh gives. Blended, the latter is added to maps in between, so
+  /// that these are as accurate.
+  struct End {
+    VectorXc constant, places, off;
+  };
   End measured(const LogKey& key) const;
   bool certifies(LogSum& sum, LogMap change) const;
   bool certifies(LogSum& sum, LogMap change, const Kept& kept) const;
@@ -103,12 +108,6 @@ class LogInterval {
   std::vector<int> anchors_;
   LineIntegrals lines_;  ///< from these vertices to the points
   Index kept_;           ///< the number of points that are held: kept stations, or the one point
-  /// At an end: the constant combinations, the images of the placed points, and the key's f minus
-  /// what integration along the mesh gives. Blended, the latter is added to maps in between, so
-  /// that these are as accurate.
-  struct End {
-    VectorXc constant, places, off;
-  };
   End from_, to_;
 };
 

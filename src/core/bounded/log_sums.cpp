@@ -67,8 +67,8 @@ bool LogSums::certify(const LogSum& sum, const Extremes& within, double growth) 
                       (1 - kTolerance) * within.smallest, (1 + growth) * within.largest};
   if (sum.is_nu()) return certifier_.certify(sum.single(), bounds, kDepth).holds;
   if (sum.change.l.isZero(0) && sum.change.w.isZero(0)) return true;
-  // The terms alone may exceed the largest size by kBulge.
-  constexpr double kBulge = 0.06;
+  // The terms alone may exceed the largest size by the largest (1 + t) / 2^t with t from 0 to 1.
+  constexpr double kBulge = 0.0615;
   const Extremes change = certifier_.extremes(sum.change);
   return change.shear <= 0.5 * kTolerance * std::min(bounds.k, 1 - bounds.k) &&
          change.smallest >= 1 - 0.5 * kTolerance * (1 - bounds.k) &&

@@ -83,7 +83,7 @@ class PointMap {
   virtual std::vector<Value> values_at(std::span<const Complex> points) const;
   /// Whether the map is linear in each triangle of the rest's mesh.
   virtual bool is_linear_in_triangles() const { return false; }
-  /// Whether f_z is known to have no zeros inside, although it may be too small to tell.
+  /// Whether f_z is known to have no zeros inside. Its values may be too small to show this.
   virtual bool has_no_zeros() const { return false; }
   /// Whether the map is put together from pieces, so that its second derivatives may jump.
   virtual bool is_piecewise() const { return false; }
@@ -105,7 +105,6 @@ struct MotionKey {
   const VectorXc* f;    ///< at the mesh's vertices
   double rotation = 0;  ///< the average rotation of the picture in radians, with whole turns
   double time = 0;
-  int turns = 0;  ///< whole turns since the key before it, besides the shortest rotation
 };
 
 /// The motion from one key to the next.

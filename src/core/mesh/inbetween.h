@@ -5,8 +5,8 @@
 // maps, this blends angles and logarithms of sizes (Weber, Gotsman 2010, sec. 6). Between harmonic
 // maps, the blended L and nu are again holomorphic. Then |nu| does not exceed the larger value of
 // the two maps, and the smallest stretch does not fall below the smaller value of the two. The
-// largest stretch may exceed both values by a factor of (1 + k / 2) / sqrt(1 + k), where k is the
-// larger |nu|.
+// largest stretch may exceed both values by a factor of (1 + t k) / (1 + k)^t with t from 0 to 1,
+// where k is the larger |nu|; the factor is less than 1.0615.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -18,15 +18,6 @@
 #include "core/mesh/mesh.h"
 
 namespace holomorph {
-
-/// A pin that both of two keys hold is still between them if it stays within this fraction of the
-/// size of the straight line from its image in one key to its image in the other.
-inline constexpr double kStill = 1e-4;
-/// Whether a picture makes whole turns between two keys with these average rotations, in radians.
-/// It can then hold only one pin.
-inline bool makes_whole_turns(double from, double to) {
-  return std::abs(to - from) > kPi;
-}
 
 /// The expected rotation from one map to the next: the rotation of the triangle that contains a
 /// given rest point or, without a point, the average rotation.

@@ -11,12 +11,15 @@ std::string short_pin_text(size_t pin, double pixels) {
   return text;
 }
 
-std::string sliding_pin_text(size_t pin, double pixels, bool turns) {
+std::string sliding_pin_text(size_t pin, double pixels, SlideReason reason) {
   char distance[40] = "less than 0.1";
   if (pixels >= 0.1) std::snprintf(distance, sizeof distance, "%.*f", pixels < 10 ? 1 : 0, pixels);
   return ". Pin " + std::to_string(pin + 1) + " slides " + distance + " px: " +
-         (turns ? "a picture that makes whole turns can hold only one pin"
-                : "no map was found that holds it within both keyframes' limits");
+         (reason == SlideReason::whole_turns
+              ? "a picture that makes whole turns can hold only one pin"
+          : reason == SlideReason::limits
+              ? "no map was found that holds it within both keyframes' limits"
+              : "no map without folds was found that holds it");
 }
 
 std::string missed_pins_text(std::span<const size_t> pins, std::span<const Complex> offsets,

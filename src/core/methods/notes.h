@@ -19,9 +19,14 @@ std::string missed_pins_text(std::span<const size_t> pins, std::span<const Compl
                              double least);
 /// The note of a proved frame between keyframes. Texts about sliding pins may follow.
 inline const std::string kNoFoldsBetween = "Between keyframes: no folds";
-/// A pin that leaves the place where both keyframes hold it, by so many pixels. `turns`: because
-/// the picture makes whole turns.
-std::string sliding_pin_text(size_t pin, double pixels, bool turns);
+/// Why a pin leaves the place where both keyframes hold it.
+enum class SlideReason : char {
+  whole_turns,  ///< the picture makes whole turns
+  limits,       ///< nothing within the distortion of both keyframes was found
+  folds         ///< nothing was found that is proved not to fold
+};
+/// Such a pin, and by how many pixels it leaves its place.
+std::string sliding_pin_text(size_t pin, double pixels, SlideReason reason);
 /// The strongest distortion of the picture, which explains why a pin is missed.
 std::string strain_text(const std::optional<Extremes>& extremes);
 

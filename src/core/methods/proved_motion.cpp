@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/maps/distortion.h"
-#include "core/mesh/inbetween.h"
+#include "core/maps/still_pins.h"
 #include "core/methods/bounded_points.h"
 #include "core/methods/notes.h"
 
@@ -49,7 +49,8 @@ class ProvedInterval final : public MotionInterval {
                                 : kNoFoldsBetween;
     if (blend.certified && blend.slide)
       map.note += sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)],
-                                   blend.slide->distance, turns_);
+                                   blend.slide->distance,
+                                   turns_ ? SlideReason::whole_turns : SlideReason::limits);
     return map;
   }
 
@@ -77,9 +78,8 @@ class LogMotion final : public ProvedMotion {
     std::vector<char> held;
     for (const size_t i : setting_.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
-    if (to.turns == 0) turn_with_still_pins(keys, held);
-    const bool turns = makes_whole_turns(between_->mean_argument(keys[1]->map),
-                                         between_->mean_argument(keys[2]->map));
+    const bool turns = makes_whole_turns(between_->mean_argument(keys[2]->map, held) -
+                                         between_->mean_argument(keys[1]->map, held));
     return std::make_unique<ProvedInterval>(between_, setting_, std::move(keys), smooth, held,
                                             turns);
   }
@@ -92,26 +92,6 @@ class LogMotion final : public ProvedMotion {
   }
 
  private:
-  /// Adds a whole turn to the second half of the motion if pins that both ends hold slide much less
-  /// then. The average rotation of the picture does not tell: an arm may swing far.
-  void turn_with_still_pins(Keys& keys, const std::vector<char>& held) const {
-    if (std::ranges::count(held, char{1}) < 2) return;
-    const auto turned = [](LogKey key, int turns) {
-      key.map.l.array() += 2 * kPi * turns * kI;
-      return key;
-    };
-    int best = 0;
-    constexpr double kClearly = 0.5;
-    double least = kClearly * between_->slide(*keys[1], *keys[2], held);
-    for (const int turns : {-1, 1})
-      if (const double slide = between_->slide(*keys[1], turned(*keys[2], turns), held);
-          slide < least)
-        least = slide, best = turns;
-    if (best == 0) return;
-    for (const size_t k : {size_t{2}, size_t{3}})
-      if (keys[k]) *keys[k] = turned(std::move(*keys[k]), best);
-  }
-
   /// Null if the key is not certified.
   std::unique_ptr<LogKey> key_of(const MotionKey* key) const {
     if (!key || !key->extremes || !key->solution) return nullptr;

@@ -1,14 +1,17 @@
-// At a key, the forces of the handles almost balance those of the sheet: pins may be met exactly,
-// and the solver may have stopped early. A load adds what is missing. In between, handles pull at
+// At a key, the forces of the handles almost balance those of the sheet: exact pins are held by
+// shifted targets, which the springs do not contain, and the solver may have stopped early. A load
+// adds what is missing. In between, handles pull at
 // the images that the blended map gives them with blended forces, and the loads are blended, so
 // that motion begins and ends at the maps of the keys.
 #include "core/methods/sheet_motion.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/arithmetic.h"
 #include "core/maps/distortion.h"
+#include "core/maps/still_pins.h"
 #include "core/mesh/inbetween.h"
 #include "core/methods/notes.h"
 #include "core/sheet/fixed_coordinates.h"
@@ -43,7 +46,7 @@ enum class Held : char {
   no,
   still,   ///< both hold it at one target
   slides,  ///< the same, but a picture that makes whole turns can hold only one pin
-  follows  ///< both meet their targets exactly: it has an exact place on the way of the picture
+  follows  ///< both meet its targets exactly: it is held where the blended map puts it
 };
 
 class SheetInterval final : public MotionInterval {
@@ -96,10 +99,10 @@ class SheetInterval final : public MotionInterval {
 
   double share(double u) const { return smooth_ ? smoothstep(u) : u; }
 
-  /// Names the pin that is farthest from its straight way between its images at the ends, if both
+  /// Names the pin that is farthest from the straight path between its images at the ends, if both
   /// hold it.
   std::string sliding_text(double u, const SmoothMap& map) const {
-    double most = kStill * solver().domain().size;
+    double most = kStillPin * solver().domain().size;
     std::optional<size_t> farthest;
     for (size_t i = 0; i < held_.size(); ++i) {
       if (held_[i] != Held::still && held_[i] != Held::slides) continue;
@@ -108,7 +111,9 @@ class SheetInterval final : public MotionInterval {
       if (off > most) most = off, farthest = i;
     }
     if (!farthest) return {};
-    return sliding_pin_text(setting_->numbers[*farthest], most, held_[*farthest] == Held::slides);
+    return sliding_pin_text(
+        setting_->numbers[*farthest], most,
+        held_[*farthest] == Held::slides ? SlideReason::whole_turns : SlideReason::folds);
   }
 
   struct Blended {
@@ -158,16 +163,12 @@ class SheetMotion final : public ProvedMotion {
     std::array<std::optional<SheetKey>, 4> keys{key_of(before), key_of(&from), key_of(&to),
                                                 key_of(after)};
     if (!keys[1] || !keys[2]) return nullptr;
-    pull(from, *keys[1]);
-    pull(to, *keys[2]);
-    const auto rotation = [](const SheetKey& key) { return key.shape.logarithm.imag().mean(); };
-    const bool turns = makes_whole_turns(rotation(*keys[1]), rotation(*keys[2]));
+    add_pull(from, *keys[1]);
+    add_pull(to, *keys[2]);
     std::vector<Held> held;
-    for (size_t i = 0; i < setting_->solver->handles().pins().size(); ++i) {
+    for (size_t i = 0; i < setting_->solver->handles().pins().size(); ++i)
       held.push_back(held_by(*keys[1], *keys[2], i));
-      if (turns && held.back() == Held::still && std::ranges::count(held, Held::still) > 1)
-        held.back() = Held::slides;
-    }
+    if (makes_whole_turns(rotation_at(held, keys[1]->shape, keys[2]->shape))) hold_one(held);
     return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(held));
   }
 
@@ -177,6 +178,24 @@ class SheetMotion final : public ProvedMotion {
   }
 
  private:
+  /// How far the picture turns at the still pins, on average; 0 if there are none.
+  double rotation_at(const std::vector<Held>& held, const Inbetween::Shape& from,
+                     const Inbetween::Shape& to) const {
+    double sum = 0, count = 0;
+    for (size_t i = 0; i < held.size(); ++i) {
+      if (held[i] != Held::still) continue;
+      const Index t = setting_->solver->handles().places()[i].triangle;
+      sum += (to.logarithm[t] - from.logarithm[t]).imag();
+      ++count;
+    }
+    return count > 0 ? sum / count : 0;
+  }
+  /// Lets all still pins but the first one slide.
+  static void hold_one(std::vector<Held>& held) {
+    bool holds = false;
+    for (Held& pin : held)
+      if (pin == Held::still && std::exchange(holds, true)) pin = Held::slides;
+  }
   /// What both keys do with a pin. It may miss its only target.
   Held held_by(const SheetKey& from, const SheetKey& to, size_t pin) const {
     constexpr double kMet = 1e-3;  // of the size
@@ -201,7 +220,7 @@ class SheetMotion final : public ProvedMotion {
     return SheetKey{std::move(shape), key->time};
   }
   /// Adds how the handles of a key pull, and where its pins are.
-  void pull(const MotionKey& key, SheetKey& own) const {
+  void add_pull(const MotionKey& key, SheetKey& own) const {
     const SheetSolver& solver = *setting_->solver;
     const auto& state = dynamic_cast<const SheetSolution&>(*key.solution).state;
     own.pull = solver.handles().pull(solver.handles().target(*key.pose), state.turns);

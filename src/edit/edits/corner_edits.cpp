@@ -19,6 +19,7 @@ auto found(const Deformation& deformation, Index vertex) {
 PoseCorner& corner(Deformation& deformation, Index vertex) {
   if (!has_method_for(deformation, MethodUse::corners))
     deformation = with_method_for(std::move(deformation), MethodUse::corners);
+  check(vertex >= 0 && vertex < deformation.rest.size(), "corner: the vertex is not in the cage");
   deformation = deformation.corners.empty() ? with_all_corners(std::move(deformation))
                                             : with_corner(std::move(deformation), vertex);
   return std::ranges::find(deformation.corners, vertex, &Corner::vertex)->pose;

@@ -24,7 +24,8 @@ Deformation with_all_corners(Deformation deformation);
 /// Sets the angles and the tension of a corner.
 Deformation with_corner_pose(Deformation deformation, Index vertex, const PoseCorner& pose);
 /// Turns a corner by an angle in radians. This function, with_corner_pose, corner_opened and
-/// with_tension make the vertex a corner and switch to the method for corners if needed.
+/// with_tension make the vertex a corner and switch to the method for corners if needed. If parts
+/// of the cage are joined for that method, vertices are those of the joined cage.
 Deformation corner_turned(Deformation deformation, Index vertex, double by);
 /// Opens a corner: turns each of its two edges away from the other by an angle in radians.
 Deformation corner_opened(Deformation deformation, Index vertex, double by);

@@ -1,6 +1,7 @@
 // Key A. A ring turns corners of the posed cage, two arms open and close them, and dragging an edge
 // changes its tension.
 #include <algorithm>
+#include <set>
 
 #include "edit/actions/actions.h"
 #include "edit/edits/corner_edits.h"
@@ -48,6 +49,7 @@ class AngleTool final : public Tool {
   void cancel(Workspace& workspace) override {
     if (dragging_) workspace.shown.preview.reset();
     if (recording_.active()) recording_.cancel(workspace);
+    if (std::exchange(joins_, false)) workspace.selection.clear();
     dragging_ = false;
     marquee_.reset();
     shown_.reset();
@@ -176,6 +178,34 @@ class AngleTool final : public Tool {
     deformation_ = workspace.shown.deformation();
     corners_ = corners_of(workspace);
     switches_ = !has_method_for(deformation_, MethodUse::corners);
+    joins_ = false;
+  }
+
+  /// Joins the parts of the cage, because corners need a single outline. The drag goes on with the
+  /// nearest corners and the nearest edge of the joined cage.
+  void join_parts(Workspace& workspace) {
+    const Cage parts = deformation_.rest;
+    deformation_ = with_method_for(std::move(deformation_), MethodUse::corners);
+    const auto nearest = [&](Index vertex) {
+      Index best = 0;
+      for (Index v = 0; v < deformation_.rest.size(); ++v)
+        if (std::abs(deformation_.rest.vertex(v) - parts.vertex(vertex)) <
+            std::abs(deformation_.rest.vertex(best) - parts.vertex(vertex)))
+          best = v;
+      return best;
+    };
+    if (edge_)
+      edge_ = nearest_on_cage(deformation_.rest,
+                              0.5 * (parts.vertex(*edge_) + parts.end_vertex(*edge_)))
+                  .segment;
+    if (mark_) mark_->vertex = nearest(mark_->vertex);
+    clicked_ = mark_ ? mark_->vertex : -1;
+    std::set<Index> corners;
+    for (const Index corner : corners_) corners.insert(nearest(corner));
+    corners_.assign(corners.begin(), corners.end());
+    workspace.selection.clear();
+    for (const Index corner : corners_) workspace.selection.insert({Handle::Kind::cage, corner, 0});
+    joins_ = true;
   }
 
   /// The angle of the drag around the mark's center, counter-clockwise and unwrapped. With Shift,
@@ -230,6 +260,7 @@ class AngleTool final : public Tool {
   void follow(const Input& input, Workspace& workspace) {
     const bool moves =
         workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx;
+    if (moves && !deformation_.rest.parts.empty()) join_parts(workspace);
     if (moves && with_ctrl_ && !recording_.active() &&
         !recording_.start(workspace, edit(), input.now_ms))
       return cancel(workspace);
@@ -247,7 +278,7 @@ class AngleTool final : public Tool {
       }
       return;
     }
-    dragging_ = false;
+    dragging_ = joins_ = false;
     shown_.reset();
     if (recording_.active()) return recording_.finish(workspace);
     if (!workspace.shown.preview) return;
@@ -264,6 +295,7 @@ class AngleTool final : public Tool {
   std::vector<Index> corners_;  ///< the corners that the drag changes
   std::optional<std::pair<Complex, Complex>> marquee_;
   bool dragging_ = false, switches_ = false, with_ctrl_ = false;
+  bool joins_ = false;  ///< the drag has joined the parts of the cage
   Recording recording_;
   Complex start_px_, last_px_;
   double turned_ = 0;

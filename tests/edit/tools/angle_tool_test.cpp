@@ -7,6 +7,7 @@
 #include "edit/edits/corner_edits.h"
 #include "edit/edits/method_edits.h"
 #include "scene/formats/scene_json.h"
+#include "scene/keyframes.h"
 #include "support/catch.h"
 #include "support/desk.h"
 
@@ -69,6 +70,56 @@ TEST_CASE("Tool A: a drag of an arm opens all selected corners on both sides") {
     CHECK_THAT(corner_at(desk.deformation(), v).before, Catch::WithinAbs(0.2, kRounding));
     CHECK_THAT(corner_opening(desk.deformation(), v), Catch::WithinAbs(0.4, kRounding));
   }
+}
+
+TEST_CASE("Tool A: parts are joined, and the drag goes on with the nearest edge or corner") {
+  Deformation parts = with_cage({}, Points{{0, 0}, {200, 0}, {200, 100}, {0, 100}});
+  add_part(parts.rest, polygon_cage(Points{{500, 20}, {600, 0}, {700, 20}, {700, 90}, {600, 100},
+                                           {500, 90}}));
+  parts.pose = parts.rest;
+  parts.method = "sheet";
+  for (const bool records : {false, true})
+    for (const Index vertex : {1, 4, 6, 7})
+      for (const bool is_edge : {false, true}) {
+        CAPTURE(records, vertex, is_edge);
+        TestWorkspace desk;
+        desk.workspace.commit("Parts", parts);
+        desk.settle();
+        choose_angle_tool(desk);
+        const Complex corner = parts.rest.vertex(vertex),
+                      middle = 0.5 * (corner + parts.rest.end_vertex(vertex)),
+                      from = is_edge ? middle : corner + 28.0;
+        if (!is_edge) desk.click(corner);
+        const Modifiers mods{.ctrl = records};
+        desk.press(from, mods);
+        for (int k = 1; k <= 10; ++k) {
+          desk.now_ms += 100;
+          desk.move(is_edge ? from - Complex(0, 6.0 * k) : corner + std::polar(28.0, 0.05 * k),
+                    mods);
+        }
+        desk.release(is_edge ? from - Complex(0, 60) : corner + std::polar(28.0, 0.5), mods);
+        const Deformation& own = desk.workspace.shown.own();
+        CHECK(own.method == "angles");
+        CHECK(own.rest.part_count() == 1);
+        REQUIRE(listed(own) == own.rest.size());
+        const Deformation after =
+            records ? posed_as(own, own.keyframes.back().pose) : desk.deformation();
+        int changed = 0;
+        for (Index v = 0; v < after.rest.size(); ++v)
+          if (const PoseCorner pose = corner_at(after, v); pose != PoseCorner{}) {
+            ++changed;
+            CHECK_THAT(is_edge ? pose.tension : pose.before,
+                       Catch::WithinAbs(is_edge ? 0.6 : 0.5, 1e-9));
+            const Complex there = is_edge ? 0.5 * (after.rest.vertex(v) + after.rest.end_vertex(v))
+                                          : after.rest.vertex(v);
+            CHECK(std::abs(there - (is_edge ? middle : corner)) < 60);
+          }
+        CHECK(changed == 1);
+        for (const Handle& handle : desk.workspace.selection)
+          CHECK(corner_at(after, handle.index) != PoseCorner{});
+        run("edit.undo", desk.workspace);
+        CHECK(desk.workspace.shown.own().rest == parts.rest);
+      }
 }
 
 TEST_CASE("Tool A: dragging an edge changes its tension and nothing else") {
