@@ -106,7 +106,7 @@ SceneReport report_of(TimedMap& timed, const TimedFrame& frame) {
         report.map.zeros.push_back(zero.position);
         windings += zero.multiplicity;
       }
-    // No sample need be so close to a zero that it shows how far the map is folded there.
+    // All samples may be too far from a zero to show the fold there.
     for (const PointMap::Value& at : point_map->values_at(report.map.zeros)) {
       report.map.min_sigma = std::min(report.map.min_sigma, 0 - std::abs(at.fzbar));
       if (at.fzbar != Complex(0)) report.map.max_k = std::max(report.map.max_k, 1.0);

@@ -58,9 +58,10 @@ class TimedMap {
   std::unique_ptr<PointMap> point_map(const TimedFrame& frame) const;
 
   /// The map in linear pieces that are within `tolerance` of it, in units of the plane. They are in
-  /// the order in which they are drawn. Maps that the method knows only at samples are linear
-  /// in each triangle of the mesh. Uses all cores. Calls `keep_going`
-  /// on this thread from time to time; an exception from it ends the work and is rethrown.
+  /// the order in which they are drawn. Maps that are known only at samples, and frames that are
+  /// blended triangle by triangle, are linear in each triangle of the mesh. Uses all cores. Calls
+  /// `keep_going` on this thread from time to time; an exception from it ends the work and is
+  /// rethrown.
   FineMap fine(
       const TimedFrame& frame, double tolerance,
       const std::function<void()>& keep_going = [] {}) const;

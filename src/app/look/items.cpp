@@ -16,7 +16,7 @@ bool in_menu() {
          (open.back().Window->Flags & ImGuiWindowFlags_Modal) == 0;
 }
 
-/// Whether the last item is disabled.
+/// Whether items are disabled at this point, between BeginDisabled and EndDisabled.
 bool is_disabled() {
   return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
 }

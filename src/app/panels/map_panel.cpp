@@ -50,6 +50,11 @@ void details(const std::string& text, const char* tip) {
   tooltip(tip);
 }
 
+/// Whether triangles are inverted in a map that does not fold.
+bool has_coarse_mesh(const Workspace& workspace) {
+  return workspace.map().map().coarse_triangles > 0;
+}
+
 std::string percent(double value) {
   return std::to_string(std::lround(100 * value)) + " %";
 }
@@ -66,8 +71,8 @@ void convergence_section(Workspace& workspace) {
     const Action& action = workspace.actions.named(id);
     ImGui::BeginDisabled(!action.enabled(workspace));
     if (icon_button(id, icon, "")) run(action, workspace);
+    tooltip_of(action);
     ImGui::EndDisabled();
-    tooltip_of(workspace.actions.named(id));
     ImGui::SameLine(0, px(4));
   };
   control("map.play", workspace.playback.playing ? icon_named("pause") : icon_named("play"));
@@ -84,6 +89,7 @@ StateText fold_state(const Workspace& workspace) {
   const ThemeColors& c = theme_colors();
   if (!workspace.map().has_map()) return {};
   if (const size_t count = workspace.folds().size(); count > 0) {
+    if (has_coarse_mesh(workspace)) return {"Mesh too coarse", c.warning};
     const bool flipped = workspace.map().injectivity().turning_number < 0;
     return {flipped     ? "Flipped over"
             : count > 1 ? std::to_string(count) + " folds"
@@ -111,14 +117,10 @@ void injectivity_section(Workspace& workspace) {
     colored_text(c.warning, "Parts overlap");
     show_me("Show me##overlap");
   }
-  // A method that never folds does not overlap itself at a point, either: its mesh is too coarse.
-  const Deformation& own = workspace.shown.own();
-  const auto published = own.parameters.find("published");
-  const bool is_coarse = folds && method_named(own.method).never_folds &&
-                         (published == own.parameters.end() || published->second == 0);
+  const bool is_coarse = folds && has_coarse_mesh(workspace);
   const int extra_turns = static_cast<int>(std::lround(found.turning_number)) - 1;
   if (is_coarse)
-    colored_text(c.warning, "The drawing mesh is too coarse here");
+    muted_text("The map does not fold; its mesh is too coarse.");
   else if (folds && extra_turns > 0)
     colored_text(c.warning, "Overlaps itself at " + std::to_string(extra_turns) +
                                 (extra_turns == 1 ? " point" : " points"));

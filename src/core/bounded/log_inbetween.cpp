@@ -65,26 +65,28 @@ std::array<double, 4> LogInbetween::velocity(const LogCurve& curve, size_t at) c
   return {};
 }
 
-LogInterval LogInbetween::interval(const LogKey* before, const LogKey& from, const LogKey& to,
-                                   const LogKey* after, bool smooth, const std::vector<char>& held,
-                                   size_t most) const {
+LogInterval LogInbetween::interval(const std::array<const LogKey*, 4>& keys, bool smooth,
+                                   const std::vector<char>& held, size_t most) const {
   check(held.size() == stations_.size(), "in-between: one mark for each station");
-  LogCurve curve{{before, &from, &to, after}, {}, smooth};
+  LogCurve curve{keys, {}, smooth};
   curve.controls[0][1] = curve.controls[1][1] = 1;
   curve.controls[2][2] = curve.controls[3][2] = 1;
   if (smooth) {
-    const double third = (to.time - from.time) / 3;
+    const double third = (keys[2]->time - keys[1]->time) / 3;
     const auto start = velocity(curve, 1), end = velocity(curve, 2);
     for (size_t k = 0; k < 4; ++k) {
       curve.controls[1][k] += third * start[k];
       curve.controls[2][k] -= third * end[k];
     }
   }
-  std::vector<Index> still;
-  for (size_t i = 0; i < held.size(); ++i)
-    if (held[i]) still.push_back(static_cast<Index>(i));
-  const size_t kept = std::min(most, still.size());
-  return LogInterval(sums_, locator_, curve, stations_, std::move(still), kept);
+  StillStations still;
+  for (size_t i = 0; i < held.size(); ++i) {
+    if (!held[i]) continue;
+    still.numbers.push_back(static_cast<Index>(i));
+    still.positions.push_back(stations_[i]);
+  }
+  still.kept = std::min(most, still.numbers.size());
+  return LogInterval(sums_, locator_, curve, still);
 }
 
 }  // namespace holomorph

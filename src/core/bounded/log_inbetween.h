@@ -26,10 +26,11 @@ class LogInbetween {
   double mean_argument(const LogMap& map, const std::vector<char>& held) const;
 
   /// Linear motion, or smooth motion that passes through an end with the velocity given by the keys
-  /// on both sides, if there are any there. `held` says which stations both ends hold, and at most
-  /// `most` of these are held in between. The keys and this object must outlive the interval.
-  LogInterval interval(const LogKey* before, const LogKey& from, const LogKey& to,
-                       const LogKey* after, bool smooth, const std::vector<char>& held,
+  /// on both sides, if there are any there. `keys` are the key before, which may be null, the two
+  /// ends, and the key after, which may be null. `held` says which stations both ends hold, and at
+  /// most `most` of these are held in between. The keys and this object must outlive the interval.
+  LogInterval interval(const std::array<const LogKey*, 4>& keys, bool smooth,
+                       const std::vector<char>& held,
                        size_t most = std::numeric_limits<size_t>::max()) const;
 
  private:

@@ -60,14 +60,15 @@ double LogCurve::share(double u) const {
 }
 
 LogInterval::LogInterval(const LogSums& sums, const MeshLocator& locator, LogCurve curve,
-                         const Points& stations, std::vector<Index> still, size_t kept)
+                         const StillStations& still)
     : sums_(&sums),
       curve_(curve),
       limits_(extremes_of(curve.from(), curve.to())),
       conformal_(curve.from().map.w.isZero(0) && curve.to().map.w.isZero(0)),
-      constant_(constant_combinations(std::span(still).first(kept), sums.count(), sums.holes())),
-      still_(std::move(still)),
-      kept_(static_cast<Index>(std::max<size_t>(1, kept))) {
+      constant_(constant_combinations(std::span(still.numbers).first(still.kept), sums.count(),
+                                      sums.holes())),
+      still_(still.numbers),
+      held_count_(static_cast<Index>(std::max<size_t>(1, still.kept))) {
   const Mesh& mesh = sums.mesh();
   std::vector<Line> lines;
   const auto place = [&](Complex z) {
@@ -75,7 +76,7 @@ LogInterval::LogInterval(const LogSums& sums, const MeshLocator& locator, LogCur
     anchors_.push_back(vertex);
     lines.push_back({mesh.vertices[static_cast<size_t>(vertex)], z});
   };
-  for (const Index i : still_) place(stations[static_cast<size_t>(i)]);
+  for (const Complex z : still.positions) place(z);
   if (still_.empty())
     place(least_moving_point(mesh, curve.from().f, curve.to().f).in(mesh, mesh.vertices));
   lines_ = LineIntegrals(sums.basis(), lines);
@@ -98,7 +99,7 @@ bool LogInterval::certifies(LogSum& sum, LogMap change) const {
 }
 
 /// The same for a change that also has to reach its targets.
-bool LogInterval::certifies(LogSum& sum, LogMap change, const Kept& kept) const {
+bool LogInterval::certifies(LogSum& sum, LogMap change, const Constraints& kept) const {
   if (!certifies(sum, std::move(change))) return false;
   const VectorXc off = sums_->misses(kept, sum);
   return off.size() == 0 || off.cwiseAbs().maxCoeff() <= 0.1 * kStillPin * sums_->size();
@@ -106,7 +107,8 @@ bool LogInterval::certifies(LogSum& sum, LogMap change, const Kept& kept) const 
 
 /// Starts at several changes between the least one and a change of l alone, which does not increase
 /// |nu|. If limits are exceeded between samples, tries limits that are 2 % tighter.
-bool LogInterval::keeps_within_limits(const Kept& kept, LogSum& sum, const LogMap& least) const {
+bool LogInterval::keeps_within_limits(const Constraints& kept, LogSum& sum,
+                                      const LogMap& least) const {
   if (kept.combinations.rows() == 0) return false;
   const LogSum blended = sum;
   const auto starting_at = [&](const LogMap& change) {
@@ -135,7 +137,7 @@ bool LogInterval::keeps_within_limits(const Kept& kept, LogSum& sum, const LogMa
 
 /// Changes the sum so that stations are where they should be and holes are closed; `least` is the
 /// smallest change that does it. Returns whether that was possible within the keys' extremes.
-bool LogInterval::keeps(const Kept& kept, LogSum& sum, const LogMap& least) const {
+bool LogInterval::keeps(const Constraints& kept, LogSum& sum, const LogMap& least) const {
   const LogSum blended = sum;
   if (certifies(sum, least, kept)) return true;
   sum = blended;
@@ -145,7 +147,7 @@ bool LogInterval::keeps(const Kept& kept, LogSum& sum, const LogMap& least) cons
 /// Gives the sum the largest part found of the way from the change `least`, which closes holes, to
 /// `whole`, which also keeps stations, so that pins do not jump when they start to slide. Holes
 /// stay closed.
-bool LogInterval::keeps_partly(const Kept& closed, LogSum& sum, const LogMap& least,
+bool LogInterval::keeps_partly(const Constraints& closed, LogSum& sum, const LogMap& least,
                                const LogMap& whole) const {
   const LogSum blended = sum;
   const auto certifies_part = [&](double part) {
@@ -171,11 +173,11 @@ bool LogInterval::keeps_partly(const Kept& closed, LogSum& sum, const LogMap& le
 /// whether a change was proved.
 bool LogInterval::correct(const VectorXc& wanted, LogSum& sum) const {
   const LogSum blended = sum;
-  const Kept kept{constant_, wanted};
+  const Constraints kept{constant_, wanted};
   const LogMap whole = sums_->change(kept, blended, conformal_);
   if (keeps(kept, sum, whole)) return true;
   const Index holes = sums_->holes();
-  const Kept closed{constant_.bottomRows(holes), wanted.tail(holes)};
+  const Constraints closed{constant_.bottomRows(holes), wanted.tail(holes)};
   const LogMap least = sums_->change(closed, blended, conformal_);
   sum = blended;
   if (keeps_partly(closed, sum, least, whole)) return true;
@@ -199,7 +201,7 @@ void LogInterval::draw(const LogSum& sum, double share, Blend& blend) const {
     blend.f = sums_->without_jumps(std::move(blend.f), gaps);
   }
   blend.f += between(from_.off, to_.off, share);
-  blend.f.array() += misses(sum, share, blend.f).head(kept_).mean();
+  blend.f.array() += misses(sum, share, blend.f).head(held_count_).mean();
 }
 
 /// The images of the placed points by a sum with values f at the mesh's vertices.
@@ -226,10 +228,10 @@ LogInterval::Blend LogInterval::at(double u, bool measures) const {
   constexpr int kPasses = 3;
   constexpr double kClose = 0.1 * kStillPin;
   VectorXc off = misses(sum, share, blend.f);
-  for (int pass = 0; pass < kPasses && blend.certified && kept_ > 1; ++pass) {
-    if (off.head(kept_).cwiseAbs().maxCoeff() <= kClose * sums_->size()) break;
-    wanted.head(kept_ - 1) += off.segment(1, kept_ - 1) - off.head(kept_ - 1);
-    const Kept kept{constant_, wanted};
+  for (int pass = 0; pass < kPasses && blend.certified && held_count_ > 1; ++pass) {
+    if (off.head(held_count_).cwiseAbs().maxCoeff() <= kClose * sums_->size()) break;
+    wanted.head(held_count_ - 1) += off.segment(1, held_count_ - 1) - off.head(held_count_ - 1);
+    const Constraints kept{constant_, wanted};
     LogSum closer = sum;
     if (!keeps(kept, closer, sums_->change(kept, sum, conformal_))) break;
     Blend better = blend;
@@ -239,9 +241,10 @@ LogInterval::Blend LogInterval::at(double u, bool measures) const {
     sum = std::move(closer);
     off = misses(sum, share, blend.f);
   }
-  Index worst = 0;
-  if (!still_.empty() && off.cwiseAbs().maxCoeff(&worst) > kStillPin * sums_->size())
-    blend.slide = Blend::Slide{still_[static_cast<size_t>(worst)], std::abs(off[worst])};
+  for (size_t i = 0; i < still_.size(); ++i)
+    if (const double distance = std::abs(off[static_cast<Index>(i)]);
+        distance > kStillPin * sums_->size())
+      blend.slides.push_back({still_[i], distance});
   if (measures && blend.certified && sum.is_nu())
     blend.extremes = sums_->certifier().extremes(sum.single());
   blend.map = std::move(sum);

@@ -39,16 +39,22 @@ struct LogCurve {
   const LogKey& to() const { return *keys[2]; }
 };
 
+/// The stations that both ends hold. Only the first `kept` of them are held in between.
+struct StillStations {
+  std::vector<Index> numbers;
+  Points positions;
+  size_t kept = 0;
+};
+
 /// The maps between two keys. Threads: const functions may run at the same time.
 class LogInterval {
  public:
   /// By how much the largest size may grow between keys. Without corrections, it is 6.2 % at most.
   static constexpr double kGrowth = 0.3;
 
-  /// `stations` are all stations, and `still` lists those that both ends hold. Only the first
-  /// `kept` of these are held in between. The keys and the sums must outlive it.
+  /// The keys and the sums must outlive it.
   LogInterval(const LogSums& sums, const MeshLocator& locator, LogCurve curve,
-              const Points& stations, std::vector<Index> still, size_t kept);
+              const StillStations& still);
 
   /// A map between the keys.
   struct Blend {
@@ -60,14 +66,13 @@ class LogInterval {
     LogSum map;  ///< up to a constant; it refers to the keys
     /// If they are measured, and both keys are in the space L_nu.
     std::optional<Extremes> extremes;
-    /// The station that is farthest from its place although both keys hold it, and its distance
-    /// from there, if it is not still (kStillPin): it is not kept, or no larger correction could be
-    /// proved.
+    /// The stations that are not still (kStillPin) although both keys hold them, and how far they
+    /// are from their places: they are not kept, or no larger correction could be proved.
     struct Slide {
       Index station;
       double distance;
     };
-    std::optional<Slide> slide;
+    std::vector<Slide> slides;
     /// By how much f jumped before the jumps were spread over the picture; 0 without holes.
     double gap = 0;
   };
@@ -77,7 +82,7 @@ class LogInterval {
   Blend at(double u, bool measures) const;
 
  private:
-  using Kept = LogSums::Kept;
+  using Constraints = LogSums::Constraints;
   /// At an end: the constant combinations, the images of the placed points, and the key's f minus
   /// what integration along the mesh gives. Blended, the latter is added to maps in between, so
   /// that these are as accurate.
@@ -86,10 +91,10 @@ class LogInterval {
   };
   End measured(const LogKey& key) const;
   bool certifies(LogSum& sum, LogMap change) const;
-  bool certifies(LogSum& sum, LogMap change, const Kept& kept) const;
-  bool keeps(const Kept& kept, LogSum& sum, const LogMap& least) const;
-  bool keeps_within_limits(const Kept& kept, LogSum& sum, const LogMap& least) const;
-  bool keeps_partly(const Kept& closed, LogSum& sum, const LogMap& least,
+  bool certifies(LogSum& sum, LogMap change, const Constraints& kept) const;
+  bool keeps(const Constraints& kept, LogSum& sum, const LogMap& least) const;
+  bool keeps_within_limits(const Constraints& kept, LogSum& sum, const LogMap& least) const;
+  bool keeps_partly(const Constraints& closed, LogSum& sum, const LogMap& least,
                     const LogMap& whole) const;
   bool correct(const VectorXc& wanted, LogSum& sum) const;
   void draw(const LogSum& sum, double share, Blend& blend) const;
@@ -107,7 +112,7 @@ class LogInterval {
   /// stations, the kept ones first, or one point.
   std::vector<int> anchors_;
   LineIntegrals lines_;  ///< from these vertices to the points
-  Index kept_;           ///< the number of points that are held: kept stations, or the one point
+  Index held_count_;     ///< the number of points that are held: kept stations, or the one point
   End from_, to_;
 };
 

@@ -120,7 +120,7 @@ VectorXc LogSums::without_jumps(VectorXc f, const VectorXc& gaps) const {
   return f;
 }
 
-LogMap LogSums::change(const Kept& kept, LogSum sum, bool conformal) const {
+LogMap LogSums::change(const Constraints& kept, LogSum sum, bool conformal) const {
   constexpr int kSteps = 3, kMostSteps = 8;
   constexpr double kClosed = 1e-8;  // of the size
   for (int step = 0; step < kMostSteps && kept.combinations.rows() > 0; ++step) {
@@ -135,7 +135,7 @@ LogMap LogSums::change(const Kept& kept, LogSum sum, bool conformal) const {
   return sum.change;
 }
 
-LogMap LogSums::bounded_change(const Kept& kept, LogSum sum, const Extremes& bounds,
+LogMap LogSums::bounded_change(const Constraints& kept, LogSum sum, const Extremes& bounds,
                                bool conformal) const {
   constexpr int kSteps = 12;
   constexpr double kNone = 1e-9, kClose = 1e-7;

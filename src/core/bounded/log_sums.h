@@ -50,21 +50,22 @@ class LogSums {
   VectorXc without_jumps(VectorXc f, const VectorXc& gaps) const;
 
   /// Combinations of integrals, and what they should be.
-  struct Kept {
+  struct Constraints {
     MatrixXd combinations;  ///< rows x integrals
     VectorXc targets;       ///< one for each row
   };
   /// What combinations of integrals miss their targets by.
-  VectorXc misses(const Kept& kept, const LogSum& sum) const {
+  VectorXc misses(const Constraints& kept, const LogSum& sum) const {
     return kept.targets - kept.combinations * integrals(sum);
   }
   /// The smallest change that meets the targets, by Gauss-Newton steps from the change that the sum
   /// has. `conformal`: only l changes.
-  LogMap change(const Kept& kept, LogSum sum, bool conformal) const;
+  LogMap change(const Constraints& kept, LogSum sum, bool conformal) const;
   /// Like change(), but also keeps |nu| and the size within bounds at the samples of the boundary.
   /// Where a sample is outside a bound, its value is prescribed from then on: |nu|, or the
   /// logarithm Re l + ln(1 - |nu|) of the size.
-  LogMap bounded_change(const Kept& kept, LogSum sum, const Extremes& bounds, bool conformal) const;
+  LogMap bounded_change(const Constraints& kept, LogSum sum, const Extremes& bounds,
+                        bool conformal) const;
 
   const BoundaryBasis& basis() const { return *basis_; }
   const Mesh& mesh() const { return *mesh_; }

@@ -63,7 +63,7 @@ VectorXc sums_along(const std::vector<LineNode>& nodes, const Slopes& slopes, In
 
 }  // namespace
 
-DerivativesAt derivatives_of(LogMap map) {
+DerivativesAt evaluator_of(LogMap map) {
   return [map = std::move(map)](const MatrixXc& c) {
     return derivatives_of(map, c * map.l, c * map.w);
   };
@@ -105,7 +105,7 @@ VectorXc integrated_along(const MeshTree& tree, const BoundaryBasis& basis, cons
   std::vector<Line> lines;
   for (const auto [from, to] : tree.edges())
     lines.push_back({vertices[static_cast<size_t>(from)], vertices[static_cast<size_t>(to)]});
-  const VectorXc increments = increments_along(basis, derivatives_of(map), lines);
+  const VectorXc increments = increments_along(basis, evaluator_of(map), lines);
   VectorXc f = VectorXc::Zero(static_cast<Index>(vertices.size()));
   for (size_t e = 0; e < lines.size(); ++e) {
     const auto [from, to] = tree.edges()[e];

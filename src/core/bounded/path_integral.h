@@ -11,7 +11,7 @@ namespace holomorph {
 
 /// Phi' and Psi' of a map at points, from the values C of the basis there, one row for each point.
 using DerivativesAt = std::function<Derivatives(const MatrixXc& c)>;
-DerivativesAt derivatives_of(LogMap map);
+DerivativesAt evaluator_of(LogMap map);
 
 /// A straight line segment inside the domain.
 struct Line {

@@ -48,6 +48,8 @@ struct SampledMap {
   /// After a release: the turns of the pins with which the pose has this map. Empty if these are
   /// the pose's own.
   std::vector<std::optional<double>> better_turns;
+  /// Inverted triangles of a mesh that is too coarse for this map, which does not fold.
+  int coarse_triangles = 0;
   std::shared_ptr<const Solution> solution;  ///< null if the method does not iterate
 };
 

@@ -79,6 +79,7 @@ class BoundedDeformer final : public Deformer {
           bounds_, nu_ ? nu_->extremes(found->solution.map) : psi_->extremes(found->solution.map));
     out.iterations = found->conformal.iterations + found->solution.iterations;
     out.ignores_pins = !reference_->uses_pins();
+    if (found->solution.certificate.holds) out.coarse_triangles = found->flipped_triangles;
     out.note = note(pose, *found, options.draft);
     out.solution = found;
     return out;
@@ -108,7 +109,7 @@ class BoundedDeformer final : public Deformer {
     Points zeros;
     copy.solve(pose, {}, nullptr, found, zeros);
     return std::make_unique<BoundedPointMap>(copy.basis_, rest_.mesh,
-                                             derivatives_of(found.solution.map), found.f);
+                                             evaluator_of(found.solution.map), found.f);
   }
 
  private:
@@ -286,9 +287,8 @@ class BoundedDeformer final : public Deformer {
       out.fzbar = found.first.psi.conjugate();
       return;
     }
-    SampledMap map =
-        BoundedPointMap(basis_, rest_.mesh, derivatives_of(found.solution.map), found.f)
-            .at(rest_.samples);
+    SampledMap map = BoundedPointMap(basis_, rest_.mesh, evaluator_of(found.solution.map), found.f)
+                         .at(rest_.samples);
     out.f = std::move(map.f);
     out.fz = std::move(map.fz);
     out.fzbar = std::move(map.fzbar);

@@ -1,8 +1,19 @@
 #include "core/methods/notes.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace holomorph {
+namespace {
+
+/// Besides the pin that is farthest off, so many others are off, too.
+std::string others_text(size_t others) {
+  if (others == 0) return "";
+  return others == 1 ? ", and another pin by less"
+                     : ", and " + std::to_string(others) + " other pins by less";
+}
+
+}  // namespace
 
 std::string short_pin_text(size_t pin, double pixels) {
   char text[64];
@@ -11,10 +22,14 @@ std::string short_pin_text(size_t pin, double pixels) {
   return text;
 }
 
-std::string sliding_pin_text(size_t pin, double pixels, SlideReason reason) {
+std::string sliding_pins_text(std::span<const SlidingPin> pins, SlideReason reason) {
+  if (pins.empty()) return "";
+  const SlidingPin& most = *std::ranges::max_element(pins, {}, &SlidingPin::pixels);
   char distance[40] = "less than 0.1";
-  if (pixels >= 0.1) std::snprintf(distance, sizeof distance, "%.*f", pixels < 10 ? 1 : 0, pixels);
-  return ". Pin " + std::to_string(pin + 1) + " slides " + distance + " px: " +
+  if (most.pixels >= 0.1)
+    std::snprintf(distance, sizeof distance, "%.*f", most.pixels < 10 ? 1 : 0, most.pixels);
+  return ". Pin " + std::to_string(most.pin + 1) + " slides " + distance + " px" +
+         others_text(pins.size() - 1) + ": " +
          (reason == SlideReason::whole_turns
               ? "a picture that makes whole turns can hold only one pin"
           : reason == SlideReason::limits
@@ -26,18 +41,14 @@ std::string missed_pins_text(std::span<const size_t> pins, std::span<const Compl
                              double least) {
   double farthest = 0;
   size_t which = 0;
-  int missed = 0;
+  size_t missed = 0;
   for (size_t i = 0; i < pins.size(); ++i) {
     const double off = std::abs(offsets[i]);
     missed += off >= least;
     if (off > farthest) farthest = off, which = pins[i];
   }
   if (missed == 0) return "";
-  std::string text = short_pin_text(which, farthest);
-  if (missed > 1)
-    text += missed == 2 ? ", and another pin by less"
-                        : ", and " + std::to_string(missed - 1) + " other pins by less";
-  return text;
+  return short_pin_text(which, farthest) + others_text(missed - 1);
 }
 
 std::string strain_text(const std::optional<Extremes>& extremes) {

@@ -26,7 +26,12 @@ enum class SlideReason : char {
   folds         ///< nothing was found that is proved not to fold
 };
 /// Such a pin, and by how many pixels it leaves its place.
-std::string sliding_pin_text(size_t pin, double pixels, SlideReason reason);
+struct SlidingPin {
+  size_t pin;
+  double pixels;
+};
+/// Names the pin that leaves its place by most, and counts the others. Empty if there is none.
+std::string sliding_pins_text(std::span<const SlidingPin> pins, SlideReason reason);
 /// The strongest distortion of the picture, which explains why a pin is missed.
 std::string strain_text(const std::optional<Extremes>& extremes);
 

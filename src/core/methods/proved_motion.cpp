@@ -21,17 +21,23 @@ struct BlendedSolution final : Solution {
   std::shared_ptr<const Keys> keys;
 };
 
+/// What is shared by all intervals of a deformer.
+struct Shared {
+  explicit Shared(MotionSetting own)
+      : setting(std::move(own)), between(setting.basis, setting.mesh, setting.positions) {}
+  MotionSetting setting;
+  LogInbetween between;
+};
+
 class ProvedInterval final : public MotionInterval {
  public:
-  ProvedInterval(std::shared_ptr<const LogInbetween> between, const MotionSetting& setting,
-                 Keys keys, bool smooth, const std::vector<char>& held, bool turns)
-      : between_(std::move(between)),
-        mesh_(setting.mesh),
-        pins_(setting.pins),
-        keys_(std::make_shared<const Keys>(std::move(keys))),
-        turns_(turns),
-        interval_(between_->interval((*keys_)[0].get(), *(*keys_)[1], *(*keys_)[2],
-                                     (*keys_)[3].get(), smooth, held, turns ? 1 : held.size())) {}
+  /// `reason` says why pins slide, if any do.
+  ProvedInterval(std::shared_ptr<const Shared> shared, std::shared_ptr<const Keys> keys,
+                 LogInterval interval, SlideReason reason)
+      : shared_(std::move(shared)),
+        keys_(std::move(keys)),
+        interval_(std::move(interval)),
+        reason_(reason) {}
 
   SampledMap at(double u, bool measures) const override {
     LogInterval::Blend blend = interval_.at(u, measures);
@@ -41,34 +47,32 @@ class ProvedInterval final : public MotionInterval {
     map.fzbar = blend.first.psi.conjugate();
     map.extremes = blend.extremes;
     map.solution = std::make_shared<BlendedSolution>(std::move(blend.map), keys_);
-    const int flipped = flipped_triangles(*mesh_, map.f);
+    const int flipped = flipped_triangles(*shared_->setting.mesh, map.f);
+    if (blend.certified) map.coarse_triangles = flipped;
     map.status = blend.certified && flipped == 0 ? SampledMap::Status::certified
                                                  : SampledMap::Status::infeasible;
     map.note = !blend.certified ? "Between keyframes: not proved"
                : flipped > 0    ? coarse_mesh_text(flipped)
                                 : kNoFoldsBetween;
-    if (blend.certified && blend.slide)
-      map.note += sliding_pin_text(pins_[static_cast<size_t>(blend.slide->station)],
-                                   blend.slide->distance,
-                                   turns_ ? SlideReason::whole_turns : SlideReason::limits);
+    if (!blend.certified) return map;
+    std::vector<SlidingPin> pins;
+    for (const auto& [station, distance] : blend.slides)
+      pins.push_back({shared_->setting.pins[static_cast<size_t>(station)], distance});
+    map.note += sliding_pins_text(pins, reason_);
     return map;
   }
 
  private:
-  std::shared_ptr<const LogInbetween> between_;
-  std::shared_ptr<const Mesh> mesh_;
-  std::vector<size_t> pins_;
+  std::shared_ptr<const Shared> shared_;
   std::shared_ptr<const Keys> keys_;
-  bool turns_;  ///< the picture makes whole turns, and so can hold only one pin
   LogInterval interval_;
+  SlideReason reason_;
 };
 
 class LogMotion final : public ProvedMotion {
  public:
   explicit LogMotion(MotionSetting setting)
-      : setting_(std::move(setting)),
-        between_(std::make_shared<const LogInbetween>(setting_.basis, setting_.mesh,
-                                                      setting_.positions)) {}
+      : shared_(std::make_shared<const Shared>(std::move(setting))) {}
 
   std::unique_ptr<MotionInterval> interval(const MotionKey* before, const MotionKey& from,
                                            const MotionKey& to, const MotionKey* after,
@@ -76,36 +80,40 @@ class LogMotion final : public ProvedMotion {
     Keys keys{key_of(before), key_of(&from), key_of(&to), key_of(after)};
     if (!keys[1] || !keys[2]) return nullptr;
     std::vector<char> held;
-    for (const size_t i : setting_.pins)
+    for (const size_t i : shared_->setting.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
-    const bool turns = makes_whole_turns(between_->mean_argument(keys[2]->map, held) -
-                                         between_->mean_argument(keys[1]->map, held));
-    return std::make_unique<ProvedInterval>(between_, setting_, std::move(keys), smooth, held,
-                                            turns);
+    const LogInbetween& between = shared_->between;
+    const bool turns = makes_whole_turns(between.mean_argument(keys[2]->map, held) -
+                                         between.mean_argument(keys[1]->map, held));
+    LogInterval own = between.interval({keys[0].get(), keys[1].get(), keys[2].get(), keys[3].get()},
+                                       smooth, held, turns ? 1 : held.size());
+    return std::make_unique<ProvedInterval>(shared_, std::make_shared<const Keys>(std::move(keys)),
+                                            std::move(own),
+                                            turns ? SlideReason::whole_turns : SlideReason::limits);
   }
 
   std::unique_ptr<PointMap> point_map(const SampledMap& between) const override {
     const auto* found = dynamic_cast<const BlendedSolution*>(between.solution.get());
     if (!found) return nullptr;
     const auto at = [map = found->map, keys = found->keys](const MatrixXc& c) { return map.at(c); };
-    return std::make_unique<BoundedPointMap>(setting_.basis, setting_.mesh, at, between.f);
+    return std::make_unique<BoundedPointMap>(shared_->setting.basis, shared_->setting.mesh, at,
+                                             between.f);
   }
 
  private:
   /// Null if the key is not certified.
   std::unique_ptr<LogKey> key_of(const MotionKey* key) const {
     if (!key || !key->extremes || !key->solution) return nullptr;
-    const LogMap* map = setting_.map_of(*key->solution);
+    const LogMap* map = shared_->setting.map_of(*key->solution);
     if (!map) return nullptr;
     auto own = std::make_unique<LogKey>(LogKey{*map, *key->extremes, *key->f, key->time});
     const double turns =
-        std::round((key->rotation - between_->mean_argument(own->map)) / (2 * kPi));
+        std::round((key->rotation - shared_->between.mean_argument(own->map)) / (2 * kPi));
     own->map.l.array() += 2 * kPi * turns * kI;
     return own;
   }
 
-  MotionSetting setting_;
-  std::shared_ptr<const LogInbetween> between_;
+  std::shared_ptr<const Shared> shared_;
 };
 
 }  // namespace

@@ -64,6 +64,8 @@ class PuppetDeformer final : public Deformer {
       out.turns[handles_.pins()[k]] = found->map.turns[k];
     if (!options.draft && out.status == SampledMap::Status::certified)
       out.extremes = space_->extremes(found->map.map);
+    if (found->map.certificate.holds && rest_.samples == rest_.mesh->vertices)
+      out.coarse_triangles = flipped_triangles(*rest_.mesh, out.f);
     out.note = note(found->map, out);
     if (!options.draft && is_twisted(target, pose, options.stop, found->map))
       out.note += ". Untwist would relax it";
@@ -164,8 +166,8 @@ class PuppetDeformer final : public Deformer {
                                              const IsometricMap& map) const {
     VectorXc f = integrated_along(display_->tree(), *basis_, map.map);
     f -= space_->loops().correction(display_->tree(), map.solution.gaps);
-    auto points = std::make_unique<BoundedPointMap>(basis_, rest_.mesh, derivatives_of(map.map),
-                                                    std::move(f));
+    auto points =
+        std::make_unique<BoundedPointMap>(basis_, rest_.mesh, evaluator_of(map.map), std::move(f));
     points->move(handles_.image(0, target, map.solution.offsets) -
                  points->at(handles_.isometric().stations[0]).f);
     return points;
@@ -215,7 +217,7 @@ class PuppetDeformer final : public Deformer {
         out.fz = std::move(values.first.phi);
         out.fzbar = values.first.psi.conjugate();
       } else {
-        Slopes slopes = slopes_at(*basis_, derivatives_of(map.map), rest_.samples);
+        Slopes slopes = slopes_at(*basis_, evaluator_of(map.map), rest_.samples);
         out.fz = std::move(slopes.fz);
         out.fzbar = std::move(slopes.fzbar);
       }
@@ -229,10 +231,8 @@ class PuppetDeformer final : public Deformer {
 
   std::string note(const IsometricMap& map, const SampledMap& out) const {
     if (!map.certificate.holds) return "Not proved near " + point_text(map.certificate.where);
-    std::string text = "No folds";
-    if (rest_.samples == rest_.mesh->vertices)
-      if (const int flipped = flipped_triangles(*rest_.mesh, out.f); flipped > 0)
-        text = coarse_mesh_text(flipped);
+    std::string text =
+        out.coarse_triangles > 0 ? coarse_mesh_text(out.coarse_triangles) : "No folds";
     const std::string missed = missed_pins_text(
         handles_.pins(), std::span(map.solution.offsets.data(), handles_.pins().size()),
         kMissed * box_of(rest_.mesh->vertices).diagonal());

@@ -99,21 +99,17 @@ class SheetInterval final : public MotionInterval {
 
   double share(double u) const { return smooth_ ? smoothstep(u) : u; }
 
-  /// Names the pin that is farthest from the straight path between its images at the ends, if both
-  /// hold it.
+  /// Tells which pins leave the straight path between their images at the ends, if both hold them.
   std::string sliding_text(double u, const SmoothMap& map) const {
-    double most = kStillPin * solver().domain().size;
-    std::optional<size_t> farthest;
+    std::vector<SlidingPin> sliding;
     for (size_t i = 0; i < held_.size(); ++i) {
       if (held_[i] != Held::still && held_[i] != Held::slides) continue;
       const Complex straight = (1 - share(u)) * keys_[1]->pins[i] + share(u) * keys_[2]->pins[i];
       const double off = std::abs(map.at(solver().handles().places()[i]).f - straight);
-      if (off > most) most = off, farthest = i;
+      if (off > kStillPin * solver().domain().size) sliding.push_back({setting_->numbers[i], off});
     }
-    if (!farthest) return {};
-    return sliding_pin_text(
-        setting_->numbers[*farthest], most,
-        held_[*farthest] == Held::slides ? SlideReason::whole_turns : SlideReason::folds);
+    const bool turns = std::ranges::find(held_, Held::slides) != held_.end();
+    return sliding_pins_text(sliding, turns ? SlideReason::whole_turns : SlideReason::folds);
   }
 
   struct Blended {

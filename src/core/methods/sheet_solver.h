@@ -54,13 +54,13 @@ class SheetSolver {
   /// The map of a target to which many steps lead, at most 500. Throws Stopped.
   SheetState settled(const SheetHandles::Target& target, SheetState before,
                      const std::stop_token& stop) const;
-  /// One for each pin: where it is to be exactly, if anywhere.
+  /// The exact position of each pin, for those that have one.
   using Places = std::vector<std::optional<Complex>>;
-  /// The map near f that a pull leads to, after a few steps. Pins with places get there, to within
-  /// 1e-7 of the size.
+  /// The map near f to which a pull leads, after a few steps. Pins are within 1e-7 of the size of
+  /// their places.
   VectorXc relaxed(const SheetPull& pull, const Places& places, VectorXc f) const;
 
-  /// The forces that are missing for a map to be at rest, one for each vertex.
+  /// The forces that are missing for a map to be in equilibrium, one for each vertex.
   VectorXc missing_load(const SheetPull& pull, const VectorXc& f) const;
 
   /// The map at single points, not guarded yet.

@@ -221,8 +221,8 @@ SheetProgram::Step SheetProgram::step(const SheetPull& pull, VectorXc& f, bool p
 SheetProgram::Step SheetProgram::minimize(const SheetPull& pull, VectorXc& f, int most,
                                           const std::function<void(const VectorXc&)>& after,
                                           double tolerance, bool is_near) const {
-  constexpr double kNear =
-      1e-2;  // of the energy: a decrement from which on true Hessians are tried
+  // The decrement, as a fraction of the energy, below which true Hessians are tried.
+  constexpr double kNear = 1e-2;
   Step last;
   for (int i = 0; i < most; ++i) {
     last = step(pull, f, !is_near);

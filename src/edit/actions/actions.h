@@ -14,7 +14,7 @@ struct Action {
   const char* hint = "";  ///< for the tooltip; empty if the label says everything
   const char* icon = "";  ///< a glyph of the icon font; empty: none
   std::vector<Shortcut> keys = {};
-  const char* needs = "";                       ///< for the tooltip while it is disabled
+  const char* needs = "";  ///< for the tooltip while it is disabled; empty if it never is
   bool (*enabled)(const Workspace&) = nullptr;  ///< required; `always` if there is no condition
   void (*run)(Workspace&) = nullptr;            ///< null for actions that last while a key is held
   bool (*checked)(const Workspace&) = nullptr;  ///< null for actions that cannot be on or off

@@ -102,7 +102,7 @@ std::vector<Action> cage_actions() {
           .id = "cage.all_corners",
           .label = "All points as corners",
           .hint = "Let the Angles tool turn and open every point",
-          .needs = "All points of the cage are corners already",
+          .needs = "Needs a cage with points that are not corners",
           .enabled = [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
           .run =
               [](Workspace& w) {
@@ -173,7 +173,7 @@ std::vector<Action> cage_actions() {
           .id = "map.play",
           .label = "Play iterations",
           .hint = "Watch the map converge",
-          .needs = "Needs a map that is found in steps",
+          .needs = "Needs a method that iterates",
           .enabled = converges,
           .run =
               [](Workspace& w) {
@@ -186,7 +186,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "map.step",
           .label = "Next iteration",
-          .needs = "Needs a map that is found in steps",
+          .needs = "Play the iterations first, or go to the first one",
           .enabled = [](const Workspace& w) { return converges(w) && w.playback.iteration; },
           .run =
               [](Workspace& w) {
@@ -199,7 +199,7 @@ std::vector<Action> cage_actions() {
       {
           .id = "map.restart",
           .label = "First iteration",
-          .needs = "Needs a map that is found in steps",
+          .needs = "Needs a method that iterates",
           .enabled = converges,
           .run = [](Workspace& w) { w.playback = {0}; },
       },

@@ -311,7 +311,7 @@ std::vector<Action> edit_actions() {
           .label = "Hold the rest",
           .hint = "Set pins far from a single one. In a photograph, hold what is far from all pins",
           .icon = icon_named("pin"),
-          .needs = "Needs a pin, and the mode Pose",
+          .needs = "Needs a single pin, or pins in a photograph, in pose mode",
           .enabled = can_hold_rest,
           .run = hold_rest,
       },

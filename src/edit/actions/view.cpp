@@ -116,7 +116,7 @@ std::vector<Action> view_actions() {
           .label = "Next fold",
           .hint = "Go to the worst fold, then to the next one",
           .keys = {'W'},
-          .needs = kNeedsCage,
+          .needs = "Needs a map: set a pin, or draw a cage",
           .enabled = [](const Workspace& w) { return w.map().has_map(); },
           .run = [](Workspace& w) { w.show_next_fold(); },
       },

@@ -2,6 +2,7 @@
 // changes its tension.
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "edit/actions/actions.h"
 #include "edit/edits/corner_edits.h"

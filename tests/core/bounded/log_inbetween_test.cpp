@@ -105,7 +105,7 @@ TEST_CASE("In-betweens of maps without folds do not fold, and still pins do not 
       const double shear = std::max(a.extremes.shear, b.extremes.shear),
                    smallest = std::min(a.extremes.smallest, b.extremes.smallest);
       for (const bool smooth : {false, true}) {
-        const auto interval = stage.between->interval(nullptr, a, b, nullptr, smooth, held);
+        const auto interval = stage.between->interval({nullptr, &a, &b, nullptr}, smooth, held);
         double slid = 0;
         for (int frame = 1; frame < 25; ++frame) {
           const auto blend = interval.at(frame / 25.0, true);
@@ -116,8 +116,8 @@ TEST_CASE("In-betweens of maps without folds do not fold, and still pins do not 
           CHECK(blend.gap <= 1e-6 * stage.size);
           CHECK(flipped_triangles(*stage.mesh, blend.f) == 0);
           ++frames;
-          held_frames += !blend.slide;
-          if (blend.slide) continue;
+          held_frames += blend.slides.empty();
+          if (!blend.slides.empty()) continue;
           for (const size_t i : {0, 1})
             if (std::abs(a.f[pinned[i]] - b.f[pinned[i]]) < 1e-3 * stage.size)  // met by both
               slid =
@@ -144,7 +144,7 @@ TEST_CASE("In-betweens unwind whole turns, and triangles alone let still pins sl
   LogKey a = stage.key(stage.pins, 0), b = stage.key(to, 1);
   std::vector<char> held;
   for (size_t i = 0; i < to.size(); ++i) held.push_back(to[i] == stage.pins[i]);
-  const auto once = stage.between->interval(nullptr, a, b, nullptr, false, held);
+  const auto once = stage.between->interval({nullptr, &a, &b, nullptr}, false, held);
   const Inbetween triangles(stage.mesh);
   const auto shape_a = triangles.shape_of(a.f),
              shape_b = triangles.shape_after(shape_a, triangles.shape_of(b.f));
@@ -166,7 +166,7 @@ TEST_CASE("In-betweens unwind whole turns, and triangles alone let still pins sl
   // With two more turns, the middle of the motion is turned by a whole turn.
   b.map.l.array() += 4 * kPi * kI;
   const auto turning =
-      stage.between->interval(nullptr, a, b, nullptr, false, std::vector<char>(to.size(), 0));
+      stage.between->interval({nullptr, &a, &b, nullptr}, false, std::vector<char>(to.size(), 0));
   const auto middle = turning.at(0.25, false);
   CHECK(middle.certified);
   CHECK(stage.between->mean_argument(b.map) > 4 * kPi);
@@ -180,7 +180,7 @@ TEST_CASE("Smooth in-betweens rest between equal keys") {
   Points bent = stage.pins;
   bent[2] += Complex(0.2, 0.9);
   const LogKey a = stage.key(bent, 0), b = stage.key(bent, 0.6), c = stage.key(stage.pins, 1);
-  const auto rests = stage.between->interval(nullptr, a, b, &c, true, {1, 1, 1});
+  const auto rests = stage.between->interval({nullptr, &a, &b, &c}, true, {1, 1, 1});
   for (const double u : {0.2, 0.5, 0.9})
     CHECK((rests.at(u, false).f - a.f).cwiseAbs().maxCoeff() <= 1e-9 * stage.size);
 }
@@ -197,8 +197,8 @@ TEST_CASE("Smooth in-betweens pass through keys with one velocity") {
     keys.push_back(stage.key(targets, time));
   }
   const std::vector<char> held{1, 0, 0, 0};
-  const auto first = stage.between->interval(nullptr, keys[0], keys[1], &keys[2], true, held);
-  const auto second = stage.between->interval(&keys[0], keys[1], keys[2], &keys[3], true, held);
+  const auto first = stage.between->interval({nullptr, &keys[0], &keys[1], &keys[2]}, true, held);
+  const auto second = stage.between->interval({&keys[0], &keys[1], &keys[2], &keys[3]}, true, held);
   constexpr double kStep = 1e-4;  // seconds
   const double mean_left = stage.between->mean_argument(keys[1].map);
   CHECK(std::isfinite(mean_left));
@@ -222,7 +222,7 @@ TEST_CASE("Smooth in-betweens are certified next to keys that are much more dist
     };
     const LogKey before = posed(0.5, 0), a = posed(0.02, 1), b = posed(0.02, 2),
                  after = posed(0.5, 3);
-    const auto interval = stage.between->interval(&before, a, b, &after, true,
+    const auto interval = stage.between->interval({&before, &a, &b, &after}, true,
                                                   std::vector<char>(stage.pins.size(), 0));
     for (int frame = 1; frame < 20; ++frame) CHECK(interval.at(frame / 20.0, false).certified);
   }
