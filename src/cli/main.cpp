@@ -118,7 +118,8 @@ void add_rectangle(CLI::App* sub, std::optional<Box>& rectangle, CLI::Option* cr
            constexpr double kEdge = kRectangleRounding;
            rectangle = Box{x + kEdge, y + kEdge, x + width - kEdge, y + height - kEdge};
          },
-         "Show exactly X,Y,WIDTH,HEIGHT: lower left corner and size in the picture's pixels")
+         "Show X,Y,WIDTH,HEIGHT: lower left corner and size in the picture's pixels, widened to "
+         "whole pixels")
       ->excludes(crop);
 }
 

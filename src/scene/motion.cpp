@@ -325,7 +325,8 @@ double Motion::rotation_between(double from, double to) {
 
 double Motion::shortest_rotation(double from, double to, const ExpectedTurn& expected) {
   const Inbetween::Shape start = between_->shape_of(map_at(from)),
-                         end = between_->shape_after(start, between_->shape_of(map_at(to)), expected);
+                         end =
+                             between_->shape_after(start, between_->shape_of(map_at(to)), expected);
   return (end.logarithm - start.logarithm).imag().mean();
 }
 

@@ -6,6 +6,13 @@
 namespace holomorph {
 namespace {
 
+std::string pixels_text(double pixels) {
+  if (pixels < 0.1) return "less than 0.1 px";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*f px", pixels < 10 ? 1 : 0, pixels);
+  return text;
+}
+
 /// Besides the pin that is farthest off, so many others are off, too.
 std::string others_text(size_t others) {
   if (others == 0) return "";
@@ -16,19 +23,13 @@ std::string others_text(size_t others) {
 }  // namespace
 
 std::string short_pin_text(size_t pin, double pixels) {
-  char text[64];
-  std::snprintf(text, sizeof text, ". Pin %d stops %.*f px short", static_cast<int>(pin) + 1,
-                pixels < 10 ? 1 : 0, pixels);
-  return text;
+  return ". Pin " + std::to_string(pin + 1) + " stops " + pixels_text(pixels) + " short";
 }
 
 std::string sliding_pins_text(std::span<const SlidingPin> pins, SlideReason reason) {
   if (pins.empty()) return "";
   const SlidingPin& most = *std::ranges::max_element(pins, {}, &SlidingPin::pixels);
-  char distance[40] = "less than 0.1";
-  if (most.pixels >= 0.1)
-    std::snprintf(distance, sizeof distance, "%.*f", most.pixels < 10 ? 1 : 0, most.pixels);
-  return ". Pin " + std::to_string(most.pin + 1) + " slides " + distance + " px" +
+  return ". Pin " + std::to_string(most.pin + 1) + " slides " + pixels_text(most.pixels) +
          others_text(pins.size() - 1) + ": " +
          (reason == SlideReason::whole_turns
               ? "a picture that makes whole turns can hold only one pin"

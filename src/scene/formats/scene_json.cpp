@@ -235,6 +235,11 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
     const std::string what = error.what();  // "... at line 3, column 9: ..."
     const size_t at = what.find("line "), end = what.find(':', at);
     if (what.starts_with("brackets")) throw Error(error.kind(), name + ": not a scene: " + what);
+    constexpr std::string_view kOverflow = "number overflow parsing ";
+    if (const size_t number = what.find(kOverflow); number != std::string::npos)
+      throw Error(ErrorKind::bad_input, name + ": not a scene: the number " +
+                                            what.substr(number + kOverflow.size()) +
+                                            " is too large");
     throw Error(ErrorKind::bad_input, name +
                                           ": not a scene: the file is damaged or ends too early" +
                                           (at != std::string::npos && end != std::string::npos

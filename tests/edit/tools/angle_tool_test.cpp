@@ -74,8 +74,8 @@ TEST_CASE("Tool A: a drag of an arm opens all selected corners on both sides") {
 
 TEST_CASE("Tool A: parts are joined, and the drag goes on with the nearest edge or corner") {
   Deformation parts = with_cage({}, Points{{0, 0}, {200, 0}, {200, 100}, {0, 100}});
-  add_part(parts.rest, polygon_cage(Points{{500, 20}, {600, 0}, {700, 20}, {700, 90}, {600, 100},
-                                           {500, 90}}));
+  add_part(parts.rest,
+           polygon_cage(Points{{500, 20}, {600, 0}, {700, 20}, {700, 90}, {600, 100}, {500, 90}}));
   parts.pose = parts.rest;
   parts.method = "sheet";
   for (const bool records : {false, true})
