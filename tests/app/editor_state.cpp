@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/look/items.h"
+#include "app/panels/map_panel.h"
 #include "scene/report.h"
 
 namespace holomorph {
@@ -70,7 +71,9 @@ nlohmann::ordered_json EditorState::json() const {
       {"error", map.error().has_value()},
       {"status", name_of(map.map().status)},
       {"boundary_turns", map.injectivity().turning_number},
+      {"note", map.map().note},
       {"folds", !workspace.folds().empty()},
+      {"fold_state", fold_state(workspace).text},
       {"zeros", map.map().zeros.size()},
       {"iteration", map.map().iterations},
       {"iterations", map.map().energies.size()},

@@ -4,12 +4,13 @@ import os
 import shutil
 import subprocess
 import sys
+from random import Random
 
 import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import SOURCE, Editor, WindowCase, real, real_in_soak, load, run_tests  # noqa: E402
+from case import PROGRAM, SOURCE, Editor, WindowCase, few_or_many, real, real_in_soak, load, run_tests, seed_of  # noqa: E402
 
 SQUARE = [[60, 60], [340, 60], [340, 240], [60, 240]]
 
@@ -58,6 +59,48 @@ class LookWindowTest(WindowCase):
             editor.pause(1)
             self.assertFalse(editor.state()["folds"])
             self.assertEqual(share(self.state_text(editor, "invisible-fold"), "FF8A80", 30), 0)
+
+    def bent(self, random):
+        """A random pose of a sample, in a random method, without the picture: info counts folds as if it were opaque."""
+        name = random.choice(["gecko", "octopus", "giraffe"])
+        scene = load(os.path.join(SOURCE, "assets", name + ".json"))
+        scene.pop("image")
+        scene["method"] = {"id": random.choice(["sheet", "puppet", "bounded", "arap", "pins", "har_arap"])}
+        scene.pop("keyframes", None)
+        reach = random.choice([20, 80, 300])
+        for pin in scene["pins"]:
+            pin["pose"] = [value + random.uniform(-reach, reach) for value in pin["rest"]]
+        path = os.path.join(self.work, "bent.json")
+        with open(path, "w") as file:
+            json.dump(scene, file)
+        return path
+
+    def wound(self):
+        """A map of Angles that the mesh is too coarse for."""
+        turns = [(1.47, 3.41, 0), (1.93, 0.33, 1), (-0.83, -7.03, 1), (6.86, -2.66, 1),
+                 (0.58, -1.7, 1), (-2.06, -1.87, 0), (-1.53, 0.54, 0), (-0.29, -6.78, 1)]
+        rest = [[[x, y]] for x, y in [(473, 318), (417, 419), (295, 426), (171, 412), (133, 265), (227, 199), (321, 132), (442, 172)]]
+        corners = [{"vertex": i, "before": a, "after": b, "tension": c} for i, (a, b, c) in enumerate(turns)]
+        return self.scene_with(Image.new("RGBA", (500, 450), (40, 120, 200, 255)), cage={"rest": rest},
+                               method={"id": "angles"}, corners=corners)
+
+    def test_the_window_says_about_folds_what_info_says(self):
+        random = Random(seed_of("folds in the window", 3))
+        seen = set()
+        for make in [lambda: self.folded(True), self.wound, *few_or_many(3, 30) * [lambda: self.bent(random)]]:
+            scene = make()
+            told = json.loads(subprocess.run([PROGRAM, "info", scene, "--json"], check=True, capture_output=True).stdout)
+            with self.subTest(scene=load(scene)), Editor([scene]) as editor:
+                editor.wait(lambda s: not s["busy"] and not s["moving"] and s["fold_state"], "the map")
+                state = editor.state()
+                seen.add(state["fold_state"])
+                for key in ("method", "status", "note"):
+                    self.assertEqual(state[key], told[key], key)
+                self.assertEqual(state["folds"], told["folds_visibly"])
+                self.assertEqual(state["fold_state"] == "No folds", not told["folds_visibly"])
+                self.assertEqual(state["fold_state"] == "Mesh too coarse", "too coarse" in told["note"])
+        self.assertLessEqual({"Mesh too coarse", "No folds"}, seen)
+        self.assertTrue(any(text.endswith("olds") and text != "No folds" for text in seen), seen)
 
     @real
     def test_themes_have_the_colors_of_the_table(self):
