@@ -103,9 +103,16 @@ bool Workspace::enter_dragged(Deformation deformation, EditBase base,
 
 bool Workspace::commit(const std::string& label, Deformation deformation, EditBase base) {
   mergeable_selection_.reset();
-  return enter_dragged(std::move(deformation), base, [&](Scene scene, const auto& at) {
+  const auto parts = [this] { return shown.own().rest.part_count(); };
+  const std::string method = shown.own().method;
+  const Index before = parts();
+  const bool done = enter_dragged(std::move(deformation), base, [&](Scene scene, const auto& at) {
     document.commit(label, std::move(scene), at);
   });
+  if (done && parts() < before && shown.own().method != method)
+    messages.say("The parts now share one outline, because " +
+                 method_named(shown.own().method).label + " needs it. Undo separates them again.");
+  return done;
 }
 
 bool Workspace::amend(Deformation deformation, EditBase base) {

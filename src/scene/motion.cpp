@@ -323,11 +323,16 @@ double Motion::rotation_between(double from, double to) {
   return rotation;
 }
 
-double Motion::shortest_rotation(double from, double to, const ExpectedTurn& expected) {
+double Motion::rotation_beyond(double from, double to, const ExpectedTurn& expected) {
   const Inbetween::Shape start = between_->shape_of(map_at(from)),
                          end =
                              between_->shape_after(start, between_->shape_of(map_at(to)), expected);
-  return (end.logarithm - start.logarithm).imag().mean();
+  const VectorXd rotation = (end.logarithm - start.logarithm).imag();
+  double here = rotation.mean();
+  const Mesh& mesh = between_->mesh();
+  if (expected.at)
+    if (const auto at = locate(mesh, mesh.vertices, *expected.at)) here = rotation[at->triangle];
+  return rotation_between(from, to) + here - rotation.mean() - expected.radians;
 }
 
 void preserve_turns(Deformation& deformation, const Deformation& before, Motion& motion) {
@@ -345,11 +350,10 @@ void preserve_turns(Deformation& deformation, const Deformation& before, Motion&
     Keyframe& to = deformation.keyframes[playing[i]];
     if ((!is_new(from) && !is_new(to)) || !motion.covers(from.time) || !motion.covers(to.time))
       continue;
-    const double shortest = motion.shortest_rotation(
+    const double beyond = motion.rotation_beyond(
         from.time, to.time, expected_rotation(before, pose_at(from), pose_at(to), 0));
-    const double turns =
-        std::round((motion.rotation_between(from.time, to.time) - shortest) / (2 * kPi));
-    to.turns = static_cast<int>(std::clamp<double>(turns, -kMaxTurns, kMaxTurns));
+    const int turns = static_cast<int>(std::abs(beyond) / (2 * kPi) + 0.5 + kTie);
+    to.turns = std::min(turns, kMaxTurns) * (beyond < 0 ? -1 : 1);
   }
 }
 

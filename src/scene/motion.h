@@ -56,8 +56,8 @@ class Motion {
   /// How far the picture rotates on average from one time to another, in radians, including whole
   /// turns.
   double rotation_between(double from, double to);
-  /// The same for a motion straight from one of these maps to the other, with the expected turn.
-  double shortest_rotation(double from, double to, const ExpectedTurn& expected);
+  /// By how much the picture rotates more than expected, where the expected rotation is known.
+  double rotation_beyond(double from, double to, const ExpectedTurn& expected);
   /// Whether a time lies between the first key and the last key, inclusive.
   bool covers(double time) const {
     return plays() && keys_.front().time <= time && time <= keys_.back().time;

@@ -1,6 +1,7 @@
 // Pins that both keys hold stay between them, or the frame says which one slides, and how far.
 #include "core/arithmetic.h"
 #include "scene/keyframes.h"
+#include "scene/motion.h"
 #include "scene/prepared_map.h"
 #include "scene/timed_map.h"
 #include "support/catch.h"
@@ -175,6 +176,29 @@ TEST_CASE("A bar that curls up to one side and then to the other keeps its held 
         const Complex tip = timed.at(at, Points{{780, 25}}).f[0];
         if (u == 0.5) CHECK(tip.real() > 600);  // it has not gone around the held end
       }
+    }
+}
+
+TEST_CASE("A keyframe in the middle of a far swing keeps the way around") {
+  for (const unsigned seed : seeds_of("keys in curls", {1}))
+    for (const std::string method : {"puppet", "bounded", "sheet"}) {
+      INFO(method << ", seed " << seed);
+      std::mt19937 random(seed);
+      const Deformation curl = random_curl(method, random);
+      const std::shared_ptr<PreparedMap> prepared = prepared_map(curl, Precision::full, {});
+      Motion motion;
+      motion.follow(curl, false, prepared, {});
+      Deformation more = curl;
+      const double time = 0.5 + 0.3 * random_complex(random).real();
+      const Deformation there = motion.deformation_at(curl, time, motion.map_at(time));
+      more.keyframes.insert(more.keyframes.begin() + 1, {time, whole_pose_of(there), Ease::linear});
+      preserve_turns(more, curl, motion);
+      CHECK(more.keyframes[1].turns == 0);
+      CHECK(more.keyframes[2].turns == 0);
+      Motion again;
+      again.follow(more, false, prepared, {});
+      for (const double u : {0.2, 0.4, 0.6, 0.8})
+        CHECK((again.map_at(u) - motion.map_at(u)).cwiseAbs().maxCoeff() <= 0.1 * 802);
     }
 }
 

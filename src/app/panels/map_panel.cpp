@@ -139,7 +139,8 @@ void injectivity_section(Workspace& workspace) {
             "bends sharply. Shear is 0 % where angles are kept, and 100 % where the picture is "
             "flat.");
   } else {
-    details("Details: smallest size " + percent(found.least_stretch + 0.0),
+    details("Details: smallest size " + percent(found.least_stretch + 0.0) +
+                (!folds && found.least_stretch < 0 ? ", where it cannot be seen" : ""),
             "The size that remains where the picture is compressed most, in the "
             "direction of the strongest compression. Below 0 %, it is flipped over.");
   }

@@ -56,7 +56,8 @@ class RightPart {
 
 std::string pixels(Complex z) {
   char text[64];
-  std::snprintf(text, sizeof text, "%.0f, %.0f px", z.real(), z.imag());
+  std::snprintf(text, sizeof text, "%.0f, %.0f px", std::round(z.real()) + 0.0,
+                std::round(z.imag()) + 0.0);
   return text;
 }
 

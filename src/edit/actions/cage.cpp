@@ -103,7 +103,12 @@ std::vector<Action> cage_actions() {
           .label = "All points as corners",
           .hint = "Let the Angles tool turn and open every point",
           .needs = "Needs a cage with points that are not corners",
-          .enabled = [](const Workspace& w) { return !w.shown.deformation().corners.empty(); },
+          .enabled =
+              [](const Workspace& w) {
+                const Deformation& deformation = w.shown.deformation();
+                const auto listed = static_cast<Index>(deformation.corners.size());
+                return listed > 0 && listed < deformation.rest.size();
+              },
           .run =
               [](Workspace& w) {
                 w.commit("All points as corners", with_all_corners(w.shown.deformation()));

@@ -43,7 +43,7 @@ std::vector<Action> file_actions() {
           .label = "Find missing picture...",
           .hint = "Also finds other missing pictures in the same folder",
           .icon = icon_named("search"),
-          .needs = "Needs a picture that is missing",
+          .needs = "No picture is missing",
           .enabled =
               [](const Workspace& w) { return !w.document.layers_without_picture().empty(); },
           .run = ask<Request::find_picture>,

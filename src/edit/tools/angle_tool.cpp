@@ -50,7 +50,7 @@ class AngleTool final : public Tool {
   void cancel(Workspace& workspace) override {
     if (dragging_) workspace.shown.preview.reset();
     if (recording_.active()) recording_.cancel(workspace);
-    if (std::exchange(joins_, false)) workspace.selection.clear();
+    if (std::exchange(renumbers_, false)) select({}, workspace);
     dragging_ = false;
     marquee_.reset();
     shown_.reset();
@@ -58,7 +58,10 @@ class AngleTool final : public Tool {
   bool busy() const override { return dragging_ || marquee_; }
   bool selects() const override { return true; }
   bool key(Key key, Workspace& workspace) override {
-    if (key == Key::escape) return escape(workspace);
+    if (key == Key::escape) {
+      if (!busy()) picked_ = {};
+      return escape(workspace);
+    }
     if (key != Key::del || workspace.mode == EditMode::rest || !shown_corner(workspace))
       return false;
     remove(corners_of(workspace), workspace);
@@ -117,14 +120,34 @@ class AngleTool final : public Tool {
   }
 
   /// The selected corners. The ring and the arms act on all of them.
-  static std::vector<Index> corners_of(const Workspace& workspace) {
+  std::vector<Index> corners_of(const Workspace& workspace) const {
+    const Deformation& deformation = workspace.shown.deformation();
     std::vector<Index> corners;
-    for (const Handle& handle : workspace.selection)
+    const auto add = [&](const Handle& handle) {
       if (handle.kind == Handle::Kind::cage && handle.control == 0 &&
-          handle.index < workspace.shown.deformation().pose.size() &&
-          is_corner(workspace.shown.deformation(), handle.index))
+          handle.index < deformation.pose.size() && is_corner(deformation, handle.index))
         corners.push_back(handle.index);
+    };
+    std::ranges::for_each(selection_of(workspace), add);
     return corners;
+  }
+
+  /// Corners that are picked while the method has no use for the cage's points, which cannot be
+  /// selected then. They belong to this cage.
+  struct Picked {
+    Selection corners;
+    Cage cage;
+  };
+  bool can_select(const Workspace& workspace) const {
+    return has_cage_handles(workspace.shown.deformation(), EditMode::pose);
+  }
+  Selection selection_of(const Workspace& workspace) const {
+    if (can_select(workspace)) return workspace.selection;
+    return picked_.cage == workspace.shown.deformation().rest ? picked_.corners : Selection{};
+  }
+  void select(Selection corners, Workspace& workspace) {
+    workspace.selection = can_select(workspace) ? corners : Selection{};
+    picked_ = {std::move(corners), workspace.shown.deformation().rest};
   }
   /// The corner that has the ring and the arms: the one that was clicked last if it is selected,
   /// else the first selected one.
@@ -134,14 +157,14 @@ class AngleTool final : public Tool {
     return std::ranges::find(corners, clicked_) != corners.end() ? clicked_ : corners.front();
   }
 
-  static void remove(const std::vector<Index>& corners, Workspace& workspace) {
+  void remove(const std::vector<Index>& corners, Workspace& workspace) {
     try {
       Deformation deformation = workspace.shown.deformation();
       for (const Index corner : corners)
         deformation = without_corner(std::move(deformation), corner);
       workspace.commit(corners.size() == 1 ? "Remove corner" : "Remove corners",
                        std::move(deformation));
-      workspace.selection.clear();
+      select({}, workspace);
     } catch (const Error& error) {
       workspace.messages.complain(error);
     }
@@ -152,8 +175,9 @@ class AngleTool final : public Tool {
     if (!is_corner(workspace.shown.deformation(), *hover_))
       workspace.commit("Add corner", with_corner(workspace.shown.deformation(), *hover_));
     const Handle handle{Handle::Kind::cage, *hover_, 0};
-    if (!input.mods.shift) workspace.selection.clear();
-    if (!workspace.selection.erase(handle)) workspace.selection.insert(handle);
+    Selection corners = input.mods.shift ? selection_of(workspace) : Selection{};
+    if (!corners.erase(handle)) corners.insert(handle);
+    select(std::move(corners), workspace);
     clicked_ = *hover_;
   }
 
@@ -164,11 +188,12 @@ class AngleTool final : public Tool {
     box.include(marquee_->first);
     box.include(marquee_->second);
     marquee_.reset();
-    if (!input.mods.shift) workspace.selection.clear();
+    Selection corners = input.mods.shift ? selection_of(workspace) : Selection{};
     const Viewport view = workspace.layer_view();
     for (Index v = 0; v < workspace.shown.deformation().pose.size(); ++v)
       if (box.contains(view.px_at_plane(posed_vertex(workspace, v))))
-        workspace.selection.insert({Handle::Kind::cage, v, 0});
+        corners.insert({Handle::Kind::cage, v, 0});
+    select(std::move(corners), workspace);
   }
 
   void start(const Input& input, Workspace& workspace) {
@@ -179,34 +204,38 @@ class AngleTool final : public Tool {
     deformation_ = workspace.shown.deformation();
     corners_ = corners_of(workspace);
     switches_ = !has_method_for(deformation_, MethodUse::corners);
-    joins_ = false;
+    renumbers_ = false;
   }
 
-  /// Joins the parts of the cage, because corners need a single outline. The drag goes on with the
-  /// nearest corners and the nearest edge of the joined cage.
-  void join_parts(Workspace& workspace) {
-    const Cage parts = deformation_.rest;
+  /// Switches to the method for corners, which may select them. It has a single outline: where
+  /// parts of the cage are joined, the drag goes on with the nearest corners and the nearest edge.
+  void switch_method(Workspace& workspace) {
+    const Cage before = deformation_.rest;
     deformation_ = with_method_for(std::move(deformation_), MethodUse::corners);
+    if (!before.parts.empty()) renumber(before);
+    workspace.selection.clear();
+    for (const Index corner : corners_) workspace.selection.insert({Handle::Kind::cage, corner, 0});
+    renumbers_ = true;
+  }
+
+  void renumber(const Cage& before) {
     const auto nearest = [&](Index vertex) {
       Index best = 0;
       for (Index v = 0; v < deformation_.rest.size(); ++v)
-        if (std::abs(deformation_.rest.vertex(v) - parts.vertex(vertex)) <
-            std::abs(deformation_.rest.vertex(best) - parts.vertex(vertex)))
+        if (std::abs(deformation_.rest.vertex(v) - before.vertex(vertex)) <
+            std::abs(deformation_.rest.vertex(best) - before.vertex(vertex)))
           best = v;
       return best;
     };
     if (edge_)
       edge_ = nearest_on_cage(deformation_.rest,
-                              0.5 * (parts.vertex(*edge_) + parts.end_vertex(*edge_)))
+                              0.5 * (before.vertex(*edge_) + before.end_vertex(*edge_)))
                   .segment;
     if (mark_) mark_->vertex = nearest(mark_->vertex);
     clicked_ = mark_ ? mark_->vertex : -1;
     std::set<Index> corners;
     for (const Index corner : corners_) corners.insert(nearest(corner));
     corners_.assign(corners.begin(), corners.end());
-    workspace.selection.clear();
-    for (const Index corner : corners_) workspace.selection.insert({Handle::Kind::cage, corner, 0});
-    joins_ = true;
   }
 
   /// The angle of the drag around the mark's center, counter-clockwise and unwrapped. With Shift,
@@ -261,7 +290,7 @@ class AngleTool final : public Tool {
   void follow(const Input& input, Workspace& workspace) {
     const bool moves =
         workspace.shown.preview || std::abs(input.px - start_px_) >= kDragThresholdPx;
-    if (moves && !deformation_.rest.parts.empty()) join_parts(workspace);
+    if (moves && !has_method_for(deformation_, MethodUse::corners)) switch_method(workspace);
     if (moves && with_ctrl_ && !recording_.active() &&
         !recording_.start(workspace, edit(), input.now_ms))
       return cancel(workspace);
@@ -279,7 +308,7 @@ class AngleTool final : public Tool {
       }
       return;
     }
-    dragging_ = joins_ = false;
+    dragging_ = renumbers_ = false;
     shown_.reset();
     if (recording_.active()) return recording_.finish(workspace);
     if (!workspace.shown.preview) return;
@@ -296,7 +325,8 @@ class AngleTool final : public Tool {
   std::vector<Index> corners_;  ///< the corners that the drag changes
   std::optional<std::pair<Complex, Complex>> marquee_;
   bool dragging_ = false, switches_ = false, with_ctrl_ = false;
-  bool joins_ = false;  ///< the drag has joined the parts of the cage
+  bool renumbers_ = false;  ///< the drag has switched the method, and maybe joined parts
+  Picked picked_;
   Recording recording_;
   Complex start_px_, last_px_;
   double turned_ = 0;
