@@ -26,10 +26,10 @@
 #include "scene/budget.h"
 #include "scene/check_scene.h"
 #include "scene/formats/scene_json.h"
-#include "scene/joined_cage.h"
 #include "scene/keyframes.h"
 #include "scene/loading.h"
 #include "scene/report.h"
+#include "scene/with_method.h"
 #include "system/new_file.h"
 
 namespace py = pybind11;
@@ -519,14 +519,7 @@ void add_content(py::class_<PythonScene>& scene) {
           "method", [](const PythonScene& self) { return self.deformation().method; },
           [](PythonScene& self, const std::string& id) {
             self.edit([&](Deformation& deformation) {
-              deformation.other_parameters[deformation.method] = deformation.parameters;
-              const auto known = deformation.other_parameters.find(id);
-              deformation.parameters =
-                  known == deformation.other_parameters.end() ? Parameters() : known->second;
-              deformation.other_parameters.erase(id);
-              deformation.method = id;
-              if (!method_named(id).allows_parts)
-                deformation = with_joined_parts(std::move(deformation));
+              deformation = with_method(std::move(deformation), id);
             });
           },
           "The id of the method that makes the map; see methods().")
@@ -549,7 +542,8 @@ void add_handles(py::class_<PythonScene>& scene) {
             self.edit([&](Deformation& deformation) {
               deformation = with_cage(std::move(deformation), cage);
               if (!cage.parts.empty() && !method_named(deformation.method).allows_parts)
-                deformation.method = usual_method(MethodUse::puppet).id;
+                deformation =
+                    with_method(std::move(deformation), usual_method(MethodUse::puppet).id);
             });
           },
           py::arg("points"), py::arg("degree") = 1, py::arg("holes") = py::list(),

@@ -63,7 +63,12 @@ std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection&
   result.scene =
       with_each_layer(scene, keys, [&](Deformation deformation, const std::vector<size_t>& chosen) {
         std::vector<Keyframe> moving;
-        for (const size_t k : chosen) moving.push_back(deformation.keyframes[k]);
+        for (const size_t k : chosen) {
+          moving.push_back(deformation.keyframes[k]);
+          // Whole turns are made since the key before, which a copy may not have before it.
+          if (how.copies && (k == 0 || !std::ranges::binary_search(chosen, k - 1)))
+            moving.back().turns = 0;
+        }
         if (!how.copies)
           for (size_t i = chosen.size(); i-- > 0;)
             deformation = without_key(std::move(deformation), chosen[i]);
@@ -92,20 +97,31 @@ Scene with_keys_eased(Scene scene, const KeySelection& keys, Ease ease) {
 }
 
 Scene without_keys(Scene scene, const KeySelection& keys) {
-  return with_each_layer(std::move(scene), keys,
-                         [&](Deformation deformation, const std::vector<size_t>& chosen) {
-                           for (size_t i = chosen.size(); i-- > 0;)
-                             deformation = without_key(std::move(deformation), chosen[i]);
-                           return deformation;
-                         });
+  return with_each_layer(
+      std::move(scene), keys, [&](Deformation deformation, const std::vector<size_t>& chosen) {
+        for (size_t i = chosen.size(); i-- > 0;) {
+          const size_t k = chosen[i];
+          // The picture turns as often as before between the keys around it.
+          if (k > 0 && k + 1 < deformation.keyframes.size()) {
+            int& turns = deformation.keyframes[k + 1].turns;
+            turns = std::clamp(turns + deformation.keyframes[k].turns, -kMaxTurns, kMaxTurns);
+          }
+          deformation = without_key(std::move(deformation), k);
+        }
+        return deformation;
+      });
 }
 
 Scene with_keys_mirrored(Scene scene, const KeySelection& keys) {
   return with_each_layer(std::move(scene), keys,
                          [&](Deformation deformation, const std::vector<size_t>& chosen) {
                            for (const size_t k : chosen) {
-                             Pose& pose = deformation.keyframes[k].pose;
-                             if (fits(deformation, pose)) pose = mirrored(deformation, pose);
+                             Keyframe& key = deformation.keyframes[k];
+                             if (!fits(deformation, key.pose)) continue;
+                             key.pose = mirrored(deformation, key.pose);
+                             // Turns between two mirrored keys go the other way.
+                             if (k > 0 && std::ranges::binary_search(chosen, k - 1))
+                               key.turns = -key.turns;
                            }
                            return deformation;
                          });

@@ -162,6 +162,7 @@ void Motion::find_map(Key& key, const Deformation& deformation, const std::stop_
       key.solution = other.solution;
       key.extremes = other.extremes;
       key.note = other.note;
+      key.has_turns = other.has_turns;
       return;
     }
   throw_if_stopped(stop);
@@ -170,6 +171,7 @@ void Motion::find_map(Key& key, const Deformation& deformation, const std::stop_
   try {
     SampledMap map = prepared_->deformer->deform(pose_of(posed_as(deformation, key.pose)), options);
     key.f = std::move(map.f);
+    key.has_turns = !map.turns.empty();
     if (map.status != SampledMap::Status::certified || !map.extremes) return;
     key.extremes = map.extremes;
     key.solution = std::move(map.solution);
@@ -348,8 +350,9 @@ void preserve_turns(Deformation& deformation, const Deformation& before, Motion&
   for (size_t i = 1; i < playing.size(); ++i) {
     const Keyframe& from = deformation.keyframes[playing[i - 1]];
     Keyframe& to = deformation.keyframes[playing[i]];
-    if ((!is_new(from) && !is_new(to)) || !motion.covers(from.time) || !motion.covers(to.time))
-      continue;
+    if (!is_new(from) && !is_new(to)) continue;
+    if (!motion.covers(from.time)) to.turns = 0;  // the picture stood still there
+    if (!motion.covers(from.time) || !motion.covers(to.time)) continue;
     const double beyond = motion.rotation_beyond(
         from.time, to.time, expected_rotation(before, pose_at(from), pose_at(to), 0));
     const int turns = static_cast<int>(std::abs(beyond) / (2 * kPi) + 0.5 + kTie);
@@ -428,6 +431,24 @@ Motion::LocalMap Motion::local_map_at(Complex rest, const VectorXc& map) {
   return frame;
 }
 
+/// Sets the turns of pins that have none to the rotation of the picture there. Otherwise, a pin
+/// whose fixed rotation is beyond half a turn would twist the picture against them.
+void Motion::add_turns(const Deformation& deformation, const VectorXc& map, Pose& pose) const {
+  const Mesh& mesh = between_->mesh();
+  const Inbetween::Shape shape = between_->shape_of(map);
+  std::vector<double> rotations;
+  for (const Pin& pin : deformation.pins)
+    rotations.push_back(shape.logarithm[locate_near(mesh, pin.rest).triangle].imag());
+  const auto fixed =
+      std::ranges::find_if(deformation.pins, [](const Pin& pin) { return pin.angle.has_value(); });
+  if (fixed == deformation.pins.end()) return;
+  const auto first = static_cast<size_t>(fixed - deformation.pins.begin());
+  const double whole =
+      2 * kPi * std::round((pose.pins[first].angle - rotations[first]) / (2 * kPi));
+  for (size_t p = 0; p < pose.pins.size(); ++p)
+    if (!pose.pins[p].turn) pose.pins[p].turn = rotations[p] + whole;
+}
+
 Deformation Motion::deformation_at(const Deformation& deformation, double time,
                                    const VectorXc& map) {
   const auto [i, u] = position_of(time);
@@ -435,13 +456,18 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
   if (u == 0) return posed_as(deformation, a.pose);
   const Key& b = keys_[i + 1];
   const double s = eased(a.ease, u);
-  // A handle with the same position at both keys stays there. Other handles follow the picture.
+  // Angles are those of the picture, but not wound up: whole turns are counted by the keys.
+  const double turned = 2 * kPi * std::remainder(b.turns * s, 1.0);
+  // A handle with the same position at both keys stays there, exactly, unless the picture makes
+  // whole turns around another point. Other handles follow the picture.
+  const double rounding = 1e-6 * box_of(between_->mesh().vertices).diagonal();
   const auto carried = [&](Complex rest, Complex at_a, Complex at_b) {
     if (at_a == at_b && b.turns == 0) return at_a;
     const LocalMap now = local_map_at(rest, map), before = local_map_at(rest, a.f),
                    after = local_map_at(rest, b.f);
-    return now.f +
-           now.fz * ((1 - s) * (at_a - before.f) / before.fz + s * (at_b - after.f) / after.fz);
+    const Complex place = now.f + now.fz * ((1 - s) * (at_a - before.f) / before.fz +
+                                            s * (at_b - after.f) / after.fz);
+    return at_a == at_b && std::abs(place - at_a) <= rounding ? at_a : place;
   };
   Pose pose = a.pose;
   for (Index e = 0; e < deformation.rest.size(); ++e) {
@@ -459,11 +485,12 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
   for (size_t p = 0; p < pose.pins.size(); ++p) {
     const PosePin &from = a.pose.pins[p], &to = b.pose.pins[p];
     pose.pins[p] = {carried(deformation.pins[p].rest, from.position, to.position),
-                    (1 - s) * from.angle + s * to.angle,
+                    (1 - s) * from.angle + s * to.angle + turned,
                     std::pow(from.scale, 1 - s) * std::pow(to.scale, s),
                     {}};
-    if (from.turn && to.turn) pose.pins[p].turn = (1 - s) * *from.turn + s * *to.turn;
+    if (from.turn && to.turn) pose.pins[p].turn = (1 - s) * *from.turn + s * *to.turn + turned;
   }
+  if (a.has_turns && b.turns != 0) add_turns(deformation, map, pose);
   for (size_t k = 0; k < pose.strokes.size(); ++k) {
     const Points &from = a.pose.strokes[k], &to = b.pose.strokes[k],
                  &rest = deformation.strokes[k].rest;
@@ -481,7 +508,8 @@ Deformation Motion::deformation_at(const Deformation& deformation, double time,
   pose.corners.resize(deformation.corners.size());
   for (size_t c = 0; c < pose.corners.size(); ++c) {
     const PoseCorner from = corner(a.pose, c), to = corner(b.pose, c);
-    pose.corners[c] = {(1 - s) * from.before + s * to.before, (1 - s) * from.after + s * to.after,
+    pose.corners[c] = {(1 - s) * from.before + s * to.before + turned,
+                       (1 - s) * from.after + s * to.after + turned,
                        (1 - s) * from.tension + s * to.tension};
   }
   return posed_as(deformation, pose);

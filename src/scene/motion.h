@@ -94,6 +94,7 @@ class Motion {
     std::shared_ptr<const Solution> solution = {};  ///< only if the method proves its maps
     std::optional<Extremes> extremes = {};
     std::string note = {};          ///< of the certified map
+    bool has_turns = false;         ///< SampledMap::turns are known: the map depends on them
     ExpectedTurn turn_before = {};  ///< since the key before it
   };
   /// The shapes at both ends of an interval without proof, and their rates of change if the motion
@@ -120,6 +121,7 @@ class Motion {
   void count_turns(const Deformation& deformation);
   TimePosition position_of(double time) const;
   LocalMap local_map_at(Complex rest, const VectorXc& map);
+  void add_turns(const Deformation& deformation, const VectorXc& map, Pose& pose) const;
   const Inbetween::Shape& shape_at(size_t key);
   Inbetween::Shape shape_after(const Inbetween::Shape& before, size_t key);
   Inbetween::Shape shape_before(const Inbetween::Shape& after, size_t key);

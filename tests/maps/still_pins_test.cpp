@@ -249,6 +249,39 @@ TEST_CASE("A picture that makes whole turns holds one pin, and the note names an
     }
 }
 
+TEST_CASE("A picture that makes whole turns between equal keys turns rigidly around a still pin") {
+  for (const unsigned seed : seeds_of("rigid turns", {1, 2}))
+    for (const std::string method : {"puppet", "bounded", "sheet"}) {
+      std::mt19937 random(seed);
+      const auto number = [&] { return std::abs(random_complex(random).real()); };
+      const double width = 150 + 700 * number(), height = 60 + 200 * number();
+      INFO(method << ", seed " << seed << ", " << width << " x " << height);
+      Deformation spin;
+      spin.rest = spin.pose = polygon_cage(shapes::rectangle(width, height));
+      spin.method = method;
+      for (int i = 0; i < 3; ++i) {
+        const double x = width * (0.05 + 0.9 * number()), y = height * (0.1 + 0.8 * number());
+        spin.pins.push_back({{x, y}, {x, y}, {}, {}});
+      }
+      for (const double time : {0.0, 1.0})
+        spin.keyframes.push_back({time, whole_pose_of(spin), Ease::linear});
+      spin.keyframes[1].turns = 1;
+      TimedMap timed(spin);
+      const Complex held = spin.pins[0].rest;
+      const Points places{
+          held, spin.pins[1].rest, spin.pins[2].rest, {1, 1}, {width - 1, height - 1}};
+      for (const double u : {0.15, 0.5, 0.75}) {
+        const TimedFrame at = timed.frame(u);
+        INFO("at " << u << ": " << at.between.note);
+        CHECK(at.between.status == SampledMap::Status::certified);
+        const VectorXc f = timed.at(at, places).f;
+        for (size_t i = 0; i < places.size(); ++i)
+          CHECK(std::abs(f[static_cast<Index>(i)] - held -
+                         std::polar(1.0, 2 * kPi * u) * (places[i] - held)) <= 1e-3 * width);
+      }
+    }
+}
+
 TEST_CASE("Notes count all pins that slide in a picture that makes whole turns") {
   for (const std::string method : {"puppet", "bounded", "sheet"}) {
     INFO(method);

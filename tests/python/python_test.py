@@ -310,6 +310,13 @@ class Editing(Folder):
         self.assertTrue(np.isnan(scene.map([65 + 15j])[0]))
         scene.method = "pins"
         self.assertFalse(np.isnan(scene.map([40 + 15j])[0]))
+        # Each method keeps its own parameters.
+        scene.method = "bounded"
+        scene.parameters = {"pin_weight": 500}
+        scene.set_cage(square, parts=[square + 50])
+        self.assertEqual((scene.method, scene.parameters), ("sheet", {}))
+        scene.method = "bounded"
+        self.assertEqual(scene.parameters, {"pin_weight": 500})
 
     def test_mistakes_are_explained_and_change_nothing(self):
         scene = self.scene()

@@ -124,6 +124,31 @@ TEST_CASE("keys: copies, ease, deletion and mirror images") {
   CHECK_FALSE(with_keys_mirrored(scene, keys) == scene);
 }
 
+TEST_CASE("keys: whole turns between mirrored keys go the other way") {
+  Scene scene = keyed_scene({{0, 1, 2}});
+  Layer layer = scene.layer();
+  layer.deformation.keyframes[1].turns = 2;
+  scene = with_layer_at(std::move(scene), 0, std::move(layer));
+  const auto turns_of = [&](const KeySelection& keys) {
+    return with_keys_mirrored(scene, keys).deformation().keyframes[1].turns;
+  };
+  CHECK(turns_of(all_keys(scene)) == -2);
+  CHECK(turns_of({{1, 0}, {1, 1}}) == -2);
+  CHECK(turns_of({{1, 1}, {1, 2}}) == 2);  // only one end of the turns is mirrored
+  CHECK(turns_of({{1, 0}}) == 2);
+  // If a key is deleted, those around it keep them.
+  CHECK(without_keys(scene, {{1, 1}}).deformation().keyframes[1].turns == 2);
+  CHECK(without_keys(scene, {{1, 0}}).deformation().keyframes[1].turns == 0);
+  // A copy makes those turns only after a copy of the key before it.
+  const auto copied = [&](const KeySelection& keys) {
+    return with_keys_moved(scene, keys, {1, 0, 3}, {.copies = true})->scene.deformation().keyframes;
+  };
+  CHECK(copied({{1, 1}}).back().turns == 0);
+  const std::vector<Keyframe> both = copied({{1, 0}, {1, 1}});
+  CHECK(both[3].turns == 0);
+  CHECK(both[4].turns == 2);
+}
+
 TEST_CASE("keys: those of locked and hidden layers cannot be chosen") {
   Scene scene = keyed_scene({{0, 1}, {1}});
   Layer second = *scene.layers[1];

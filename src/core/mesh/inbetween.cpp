@@ -60,11 +60,21 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
 
 namespace {
 
-/// A point of these triangles at which two maps agree. If there is none, the vertex whose two
-/// images are closest to each other.
+/// A point of these triangles at which two maps agree, always the same one if they agree
+/// everywhere. If there is none, the vertex whose two images are closest to each other.
 Location least_moving_among(const std::vector<int>& triangles, const Mesh& mesh, const VectorXc& a,
                             const VectorXc& b) {
   Location best{triangles.front(), {1, 0, 0}};
+  // Where rounding errors are all that the maps differ by, they must not choose the point.
+  constexpr double kEqual = 1e-9;
+  double most = 0;
+  Box box;
+  for (const int i : triangles)
+    for (const int v : mesh.triangles[static_cast<size_t>(i)]) {
+      most = std::max(most, std::abs(b[v] - a[v]));
+      box.include(a[v]);
+    }
+  if (most <= kEqual * box.diagonal()) return best;
   double least = INFINITY;
   for (const int i : triangles) {
     const Triangle& t = mesh.triangles[static_cast<size_t>(i)];

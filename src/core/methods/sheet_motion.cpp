@@ -55,8 +55,8 @@ class SheetInterval final : public MotionInterval {
                 std::array<std::optional<SheetKey>, 4> keys, bool smooth, std::vector<Held> held)
       : setting_(std::move(setting)),
         keys_(std::move(keys)),
-        still_(least_moving_point(mesh(), keys_[1]->shape.f, keys_[2]->shape.f)),
         held_(std::move(held)),
+        still_(still_point()),
         smooth_(smooth) {
     if (!smooth) return;
     slopes_[0] = slopes(keys_[0], *keys_[1], keys_[2]);
@@ -95,6 +95,13 @@ class SheetInterval final : public MotionInterval {
     return setting_->between->slopes(
         before ? &before->shape : nullptr, here.shape, after ? &after->shape : nullptr,
         before ? here.time - before->time : 0, after ? after->time - here.time : 0);
+  }
+
+  /// The first still pin. Pins that slide are then pulled to where the picture turns around it.
+  Location still_point() const {
+    for (size_t i = 0; i < held_.size(); ++i)
+      if (held_[i] == Held::still) return solver().handles().places()[i];
+    return least_moving_point(mesh(), keys_[1]->shape.f, keys_[2]->shape.f);
   }
 
   double share(double u) const { return smooth_ ? smoothstep(u) : u; }
@@ -143,8 +150,8 @@ class SheetInterval final : public MotionInterval {
   std::shared_ptr<const SheetSetting> setting_;
   std::array<std::optional<SheetKey>, 4> keys_;
   std::array<std::optional<VectorXc>, 2> slopes_;
-  Location still_;
   std::vector<Held> held_;  ///< one for each pin
+  Location still_;          ///< where the blended map moves straight
   bool smooth_;
 };
 

@@ -130,12 +130,15 @@ std::vector<Action> cage_actions() {
           .id = "cage.bake",
           .label = "Apply pins to cage",
           .hint = "Give the cage the pose made by the pins, and switch to the Cage method",
-          .needs = "Needs pins that move a cage",
+          .needs = "Needs pins, and the method Elastic, whose pins can move the cage",
           .enabled =
               [](const Workspace& w) {
-                return w.shown.deformation().has_cage() &&
-                       method_named(w.shown.deformation().method).uses_pins &&
-                       !w.shown.deformation().pins.empty();
+                const Deformation& deformation = w.shown.deformation();
+                const std::vector<ParameterSpec>& settings =
+                    method_named(deformation.method).parameters;
+                return deformation.has_cage() && !deformation.pins.empty() &&
+                       std::ranges::find(settings, "own_controls", &ParameterSpec::key) !=
+                           settings.end();
               },
           .run = [](Workspace& w) { w.commit("Apply pins to cage", baked(w.shown.deformation())); },
       },

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "scene/joined_cage.h"
 
 namespace holomorph {
 namespace {
@@ -44,20 +43,6 @@ bool has_method_for(const Deformation& deformation, MethodUse use) {
 
 Deformation with_method_for(Deformation deformation, MethodUse use) {
   return with_method(std::move(deformation), usual_method(use).id);
-}
-
-Deformation with_method(Deformation deformation, const std::string& id) {
-  method_named(id);
-  if (id == deformation.method) return deformation;
-  if (deformation.parameters.empty())
-    deformation.other_parameters.erase(deformation.method);
-  else
-    deformation.other_parameters[deformation.method] = std::move(deformation.parameters);
-  deformation.parameters.clear();
-  if (auto kept = deformation.other_parameters.extract(id))
-    deformation.parameters = std::move(kept.mapped());
-  deformation.method = id;
-  return method_named(id).allows_parts ? deformation : with_joined_parts(std::move(deformation));
 }
 
 Deformation with_chosen_method(Deformation deformation, const std::string& id) {

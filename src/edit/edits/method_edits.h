@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/maps/method.h"
-#include "scene/deformation.h"
+#include "scene/with_method.h"
 
 namespace holomorph {
 
@@ -20,9 +20,6 @@ bool has_method_for(const Deformation& deformation, MethodUse use);
 /// Switches to the usual method for this use.
 Deformation with_method_for(Deformation deformation, MethodUse use);
 
-/// Switches to another method and restores the parameters with which it was last used. Parts of the
-/// cage are joined if the method needs one outline.
-Deformation with_method(Deformation deformation, const std::string& id);
 /// Chooses another method and keeps folds prevented, or not. Where the switch does not exist, its
 /// state is kept until a method with a switch is chosen again.
 Deformation with_chosen_method(Deformation deformation, const std::string& id);

@@ -125,9 +125,8 @@ bool Recording::start(Workspace& workspace, RecordedEdit edit, double now_ms) {
   // Other handles at rest need other maps, and those at the keyframes would be lost meanwhile.
   if (keyframes_play_ && (!fits(start_, whole_pose_of(before)) || !same_rest(start_, before))) {
     workspace.messages.say(
-        "Not recorded: the keyframes have no rotation for this pin, or no angle for this point. "
-        "Set "
-        "the pin's rotation to Fixed, or make the point a corner, and try again.");
+        "Not recorded: at the keyframes, this cannot turn yet. Drag it once without Ctrl, and try "
+        "again.");
     return false;
   }
   edit_ = std::move(edit);
