@@ -26,7 +26,7 @@ std::string picture_on_clipboard(const std::function<bool()>& keep_going) {
   const auto finished =
       run_program(tool({"wl-paste", "--type", "image/png"},
                        {"xclip", "-selection", "clipboard", "-target", "image/png", "-out"}),
-                  "", keep_going);
+                  "", {.keep_running = keep_going});
   if (!finished || finished->status != 0 || finished->output.empty())
     throw Error(ErrorKind::bad_input, "There is no picture on the clipboard.");
   return finished->output;
@@ -36,7 +36,7 @@ void put_on_clipboard(const std::string& png, const std::function<bool()>& keep_
   const auto finished =
       run_program(tool({"wl-copy", "--type", "image/png"},
                        {"xclip", "-selection", "clipboard", "-target", "image/png", "-in"}),
-                  png, keep_going);
+                  png, {.keep_running = keep_going});
   if (!finished || finished->status != 0)
     throw Error(ErrorKind::failed, "Could not copy the picture to the clipboard.");
 }

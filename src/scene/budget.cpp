@@ -47,8 +47,20 @@ const std::vector<BudgetOption>& budget_options() {
        &Budget::operators, 1e6},
       {"--max-scene-size", "MB", "Limit for the size of a scene file", &Budget::scene, 1e6},
       {"--max-groups", "levels", "Limit for nested groups in an SVG file", &Budget::groups, 1},
-      {"--max-frames", "frames", "Limit for one film", &Budget::frames, 1}};
+      {"--max-frames", "frames", "Limit for one film", &Budget::frames, 1},
+      {"--max-reader-seconds", "s",
+       "Limit for the processor time of a program that reads a drawing, or a frame of a film",
+       &Budget::reader_seconds, 1},
+      {"--max-reader-memory", "MB", "Limit for the memory of such a program",
+       &Budget::reader_memory, 1e6}};
   return all;
+}
+
+std::string limit_text(double Budget::*limit) {
+  const auto found = std::ranges::find(budget_options(), limit, &BudgetOption::limit);
+  const double most = budget().*limit / found->per_unit;
+  return shown(most) + " " + found->unit + ". Start with " + found->name + " " + shown(2 * most) +
+         " to raise it";
 }
 
 void check_budget(double Budget::*limit, double amount, const std::string& what) {

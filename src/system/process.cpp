@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,8 +12,10 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <sstream>
 #include <thread>
 
@@ -57,11 +60,36 @@ bool has_program(const std::string& name) {
   return false;
 }
 
+namespace {
+
+/// Sets a limit that the program itself could have set: never above its hard limit.
+void lower_limit(int pid, __rlimit_resource resource, double amount) {
+  rlimit limit{};
+  if (::prlimit(pid, resource, nullptr, &limit) != 0) return;  // it has ended
+  const auto most = static_cast<double>(limit.rlim_max);
+  limit.rlim_cur = amount < most ? static_cast<rlim_t>(amount) : limit.rlim_max;
+  ::prlimit(pid, resource, &limit, nullptr);
+}
+
+}  // namespace
+
+double seconds_used_by(int pid) {
+  clockid_t clock{};
+  timespec used{};
+  if (::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+void limit_program(int pid, const ProgramLimits& limits) {
+  lower_limit(pid, RLIMIT_CPU, std::ceil(seconds_used_by(pid) + limits.seconds));
+  lower_limit(pid, RLIMIT_DATA, limits.bytes);
+}
+
 std::optional<ProcessResult> run_program(const std::vector<std::string>& words,
-                                         const std::string& input,
-                                         const std::function<bool()>& keep_running, size_t limit) {
+                                         const std::string& input, const RunOptions& options) {
   const std::optional<Child> child = start_program(words);
   if (!child) return {};
+  limit_program(child->pid, options.limits);
   ProcessResult finished;
   size_t sent = 0;
   bool good = true, told_end = false, ended = false;
@@ -94,7 +122,7 @@ std::optional<ProcessResult> run_program(const std::vector<std::string>& words,
     } else {
       break;
     }
-    good = good && keep_running() && finished.output.size() <= limit;
+    good = good && options.keep_running() && finished.output.size() <= options.most_output;
   }
   ::close(child->socket);
   // The program may still run after closing its output, or may not respond to SIGTERM.
@@ -102,12 +130,13 @@ std::optional<ProcessResult> run_program(const std::vector<std::string>& words,
     const pid_t found = ::waitpid(child->pid, &status, WNOHANG);
     ended = found == child->pid || (found < 0 && errno != EINTR);
     if (ended) break;
-    if (good && !keep_running()) good = false, waited = 0;
+    if (good && !options.keep_running()) good = false, waited = 0;
     if (!good) ::kill(child->pid, waited < 1000 ? SIGTERM : SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   if (!good) return {};
   finished.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  finished.out_of_time = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
   return finished;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,10 +22,20 @@ class WatchedProgram {
   WatchedProgram(const WatchedProgram&) = delete;
   WatchedProgram& operator=(const WatchedProgram&) = delete;
 
+  /// Limits what the program may use from now on.
+  void limit(const ProgramLimits& limits) const { limit_program(child_.pid, limits); }
   /// The socket that the program reads from and writes to.
   int socket() const { return child_.socket; }
-  /// Closes the socket, waits until the program ends, and returns its exit status.
-  int end();
+  /// Waits until the program reads more of its input, or has ended. Kills it and returns false if
+  /// it uses no processor time for so long.
+  bool accepts(double patience_ms);
+  /// Closes the socket, waits until the program ends, and returns its exit status. Kills it if it
+  /// uses no processor time for so long.
+  int end(double patience_ms = std::numeric_limits<double>::infinity());
+  /// Whether it was killed because it used no processor time.
+  bool was_stuck() const { return was_stuck_; }
+  /// Whether it had ended because of ProgramLimits::seconds before end() was called.
+  bool out_of_time() const { return out_of_time_; }
   /// The first line that the program wrote to its standard error; may be empty.
   std::string complaint() const;
 
@@ -35,6 +46,7 @@ class WatchedProgram {
   std::unique_ptr<std::FILE, Close> log_{std::tmpfile()};  ///< an unnamed file
   Child child_;
   int status_ = 0;
+  bool out_of_time_ = false, was_stuck_ = false;
 };
 
 }  // namespace holomorph

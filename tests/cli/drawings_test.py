@@ -294,6 +294,15 @@ class Drawings(Case):
         self.good("render", path, "--allow-outside", "--out", self.path("a.png"))
         self.assertEqual(numpy.asarray(Image.open(self.path("a.png")))[..., :3].max(), 0, "all of it is black")
 
+    def test_a_drawing_that_takes_too_long_is_ended(self):
+        # 100,000 shapes from a few lines, each of them blurred.
+        levels = "".join(f"<g id='g{k}'>" + 10 * f"<use href='#g{k - 1}'/>" + "</g>" for k in range(1, 6))
+        self.write("a.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='900' height='900'><filter id='f'>"
+                   "<feGaussianBlur stdDeviation='90'/></filter><defs><g id='g0'><rect width='900' height='900' "
+                   f"filter='url(#f)'/></g>{levels}</defs><use href='#g5'/></svg>")
+        self.bad("--max-reader-seconds", "1", "new", self.path("a.svg"), "--out", self.path("n.json"),
+                 says="a.svg: drawing this file takes too long; the limit is 1 s. Start with --max-reader-seconds 2 to raise it")
+
     def test_drawings_are_opened_in_their_size_between_1024_and_4096_pixels(self):
         for width, height, pixels in (("2000", "1000", (2000, 1000)), ("20in", "10in", (1920, 960)),
                                       ("30", "60", (512, 1024)), ("9000", "900", (4096, 410))):

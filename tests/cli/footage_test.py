@@ -323,6 +323,16 @@ class Footage(Case):
                            ({"start": 1e9}, "/image/clip/start")):
             self.bad("info", self.scene("film.mp4", clip), says=says)
 
+    def test_a_frame_that_takes_too_long_is_ended(self):
+        encode(self.path("film.mp4"), 6, 25, *H264)
+        os.mkdir(self.path("bin"))
+        with open(self.path("bin/ffmpeg"), "w") as file:
+            file.write("#!/bin/sh\nwhile :; do :; done\n")
+        os.chmod(self.path("bin/ffmpeg"), 0o755)
+        slow = {**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]}
+        self.bad("--max-reader-seconds", "1", "render", self.scene("film.mp4"), "--time", "0", "--out", self.path("o.png"),
+                 says="decoding frame 0 takes too long; the limit is 1 s. Start with --max-reader-seconds 2", env=slow)
+
     def test_frames_have_at_most_64_megapixels(self):
         subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "color=s=8002x8000:r=1:d=1", "-pix_fmt", "monow",
                         "-c:v", "png", self.path("large.mkv")], check=True)

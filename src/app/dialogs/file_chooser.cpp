@@ -61,7 +61,8 @@ void FileChooser::ask(FileQuestion question, Answer answer) {
   native_ = std::make_unique<Job>(
       question_.title,
       [command, chosen = chosen_](Job::Progress& progress) {
-        const auto finished = run_program(command, "", [&] { return !progress.cancelled(); });
+        const auto finished =
+            run_program(command, "", {.keep_running = [&] { return !progress.cancelled(); }});
         if (!finished || finished->status != 0) return;
         *chosen = finished->output.substr(0, finished->output.find('\n'));
       },

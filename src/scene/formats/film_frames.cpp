@@ -90,6 +90,11 @@ double rate_of(const Json& stream) {
   return rate > 0 ? std::clamp(rate, kMinFrameRate, kMaxFrameRate) : 24;
 }
 
+ProgramLimits reader_limits() {
+  const Budget most = budget();
+  return {most.reader_seconds, most.reader_memory};
+}
+
 /// What ffprobe writes about a film.
 std::string probed(const Path& file, const std::vector<std::string>& question) {
   std::vector<std::string> words{"ffprobe", "-v", "error"};
@@ -98,10 +103,14 @@ std::string probed(const Path& file, const std::vector<std::string>& question) {
   words.push_back("file:" + file.string());
   if (!has_program("ffprobe")) throw Error(ErrorKind::failed, needs(file, "ffprobe"));
   const double start = now_ms();
-  constexpr size_t kMostText = size_t{32} << 20;
-  const auto answer = run_program(
-      words, "", [&] { return now_ms() - start < kPatienceMs; }, kMostText);
+  const auto answer = run_program(words, "",
+                                  {.keep_running = [&] { return now_ms() - start < kPatienceMs; },
+                                   .most_output = size_t{32} << 20,
+                                   .limits = reader_limits()});
   if (!answer) fail(file, "it takes more than a minute, or 32 MB, to list the film's frames");
+  if (answer->out_of_time)
+    fail(file, "listing the film's frames takes too long; the limit is " +
+                   limit_text(&Budget::reader_seconds));
   if (answer->status != 0)
     fail(file, "not a film in a supported format (MP4, QuickTime, Matroska, WebM or AVI)");
   return answer->output;
@@ -216,9 +225,15 @@ class FrameStream {
 
   int next() const { return next_; }
   std::string complaint() const { return ffmpeg_.complaint(); }
+  /// Whether the stream has ended because ffmpeg took too long. Ends it.
+  bool out_of_time() {
+    ffmpeg_.end();
+    return ffmpeg_.out_of_time();
+  }
 
   /// The next frame; none after the last one. Throws Error.
   std::optional<Image> read() {
+    ffmpeg_.limit(reader_limits());
     const std::optional<Image> shape = read_header();
     if (!shape) return {};
     Image image(shape->width, shape->height);
@@ -308,6 +323,10 @@ class Film final : public FrameReader {
       last = std::move(next);
     }
     if (!last) {
+      if (stream_->out_of_time())
+        fail(film_.file, "decoding frame " + std::to_string(frame) +
+                             " takes too long; the limit is " +
+                             limit_text(&Budget::reader_seconds));
       complaint_ = stream_->complaint();
       stream_.reset();
     }

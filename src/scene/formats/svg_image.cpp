@@ -1,7 +1,7 @@
 // Draws SVG files with the program rsvg-convert, which reads no other files, because it gets the
 // drawing through a pipe.
-#include "core/clock.h"
 #include "core/error.h"
+#include "scene/budget.h"
 #include "scene/formats/image_formats.h"
 #include "scene/formats/svg_document.h"
 #include "system/process.h"
@@ -41,14 +41,18 @@ Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget&
                 name +
                     ": drawings need the program rsvg-convert, which is not installed; install "
                     "the package librsvg2-bin");
-  constexpr double kPatienceMs = 60000;
-  const double start = now_ms();
+  const Budget most = budget();
   const auto drawn = run_program({"rsvg-convert", "--format", "png", "--unlimited"}, text.text,
-                                 [&] { return now_ms() - start < kPatienceMs; });
-  if (!drawn)
-    throw Error(ErrorKind::failed, name + ": it takes more than a minute to draw this file");
-  if (drawn->status != 0 || !is_png(drawn->output))
-    throw Error(ErrorKind::bad_input, name + ": rsvg-convert cannot draw this SVG file");
+                                 {.limits = {most.reader_seconds, most.reader_memory}});
+  if (drawn && drawn->out_of_time)
+    throw Error(ErrorKind::bad_input, name + ": drawing this file takes too long; the limit is " +
+                                          limit_text(&Budget::reader_seconds));
+  if (!drawn || drawn->status != 0 || !is_png(drawn->output))
+    throw Error(ErrorKind::bad_input,
+                name +
+                    ": rsvg-convert cannot draw this SVG file. If it needs much memory, the "
+                    "limit is " +
+                    limit_text(&Budget::reader_memory));
   PixelBudget again;
   Image image = decode_png(drawn->output, name, again, PixelDepth::eight_bits);
   if (image.width != document.columns || image.height != document.rows)
