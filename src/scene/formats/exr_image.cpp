@@ -1,12 +1,10 @@
 // Reads OpenEXR files from memory with the library OpenEXR, and writes pictures in this format.
 // Their colors are linear and premultiplied. With 8 bits, values above white are clipped.
-#include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfCompression.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
@@ -15,36 +13,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/error.h"
 #include "scene/formats/exr.h"
+#include "scene/formats/exr_stream.h"
 #include "scene/formats/image_formats.h"
 
 namespace holomorph {
 namespace {
-
-class BytesStream : public Imf::IStream {
- public:
-  BytesStream(const std::string& bytes, const std::string& name)
-      : IStream(name.c_str()), bytes_(bytes) {}
-  bool read(char* out, int count) override {
-    if (count < 0 || static_cast<size_t>(count) > bytes_.size() - at_)
-      throw Iex::InputExc("the file ends too early");
-    std::memcpy(out, bytes_.data() + at_, static_cast<size_t>(count));
-    at_ += static_cast<size_t>(count);
-    return at_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return at_; }
-  void seekg(std::uint64_t at) override {
-    if (at > bytes_.size()) throw Iex::InputExc("the file ends too early");
-    at_ = at;
-  }
-
- private:
-  const std::string& bytes_;
-  size_t at_ = 0;
-};
 
 /// How many lines a compression stores together.
 int lines_together(Imf::Compression compression) {
@@ -70,7 +46,7 @@ int lines_together(Imf::Compression compression) {
 /// sizes of pictures and tiles, but not the number of channels.
 void check_memory(const std::string& bytes, const std::string& name) {
   constexpr double kMost = 1 << 28;  // bytes
-  BytesStream stream(bytes, name);
+  ExrStream stream(bytes, name);
   stream.seekg(4);
   int version = 0;
   Imf::Xdr::read<Imf::StreamIO>(stream, version);
@@ -135,7 +111,7 @@ struct Sample {
 /// Reads rows of a file. Samples stored as floats keep their accuracy.
 class Rows {
  public:
-  Rows(BytesStream& stream, const std::string& name) : file_(stream) {
+  Rows(ExrStream& stream, const std::string& name) : file_(stream) {
     const Imf::ChannelList& channels = file_.header().channels();
     const auto has = [&](const char* channel) { return channels.findChannel(channel) != nullptr; };
     const bool colors = has("R") || has("G") || has("B");
@@ -251,7 +227,7 @@ Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget&
   check(limited, "decode_exr: limits are set");
   try {
     check_memory(bytes, name);
-    BytesStream stream(bytes, name);
+    ExrStream stream(bytes, name);
     Rows rows(stream, name);
     return read_display(rows, name, pixels, depth);
   } catch (const Error&) {

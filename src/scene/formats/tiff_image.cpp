@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "core/error.h"
 #include "scene/formats/image_formats.h"
@@ -44,16 +45,30 @@ toff_t size_of(thandle_t handle) {
   return static_cast<Stream*>(handle)->bytes.size();
 }
 
-/// Unpacks the pixels and converts them to straight alpha. libtiff packs each pixel into one number
-/// with premultiplied alpha.
-void make_straight(Image& image) {
+/// libtiff gives premultiplied colors in 8 bits. Where a file's colors are straight, this lets it
+/// take them for premultiplied ones, so that it leaves them as they are. Returns whether it does.
+bool leaves_straight(TIFF* file) {
+  uint16_t count = 0, *kinds = nullptr;
+  if (!TIFFGetField(file, TIFFTAG_EXTRASAMPLES, &count, &kinds) || count == 0 ||
+      kinds[0] != EXTRASAMPLE_UNASSALPHA)
+    return false;
+  std::vector<uint16_t> changed(kinds, kinds + count);
+  changed[0] = EXTRASAMPLE_ASSOCALPHA;
+  return TIFFSetField(file, TIFFTAG_EXTRASAMPLES, count, changed.data()) == 1;
+}
+
+/// Unpacks the pixels, which libtiff packs into one number each, and converts them to straight
+/// alpha unless they have it already.
+void unpack(Image& image, bool is_straight) {
   for (size_t i = 0; i < image.pixels.size(); i += 4) {
     uint32_t pixel = 0;
     std::memcpy(&pixel, &image.pixels[i], 4);
     const uint32_t alpha = TIFFGetA(pixel);
     const auto straight = [&](uint32_t value) {
-      return static_cast<std::uint8_t>(
-          alpha == 0 ? 0 : std::min(255u, (255 * value + alpha / 2) / alpha));
+      return static_cast<std::uint8_t>(is_straight ? value
+                                       : alpha == 0
+                                           ? 0
+                                           : std::min(255u, (255 * value + alpha / 2) / alpha));
     };
     image.pixels[i] = straight(TIFFGetR(pixel));
     image.pixels[i + 1] = straight(TIFFGetG(pixel));
@@ -94,13 +109,14 @@ Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget
       !TIFFGetField(file.get(), TIFFTAG_IMAGELENGTH, &height) || width == 0 || height == 0)
     throw damaged("");
   pixels.take(width, height, name);
+  const bool is_straight = leaves_straight(file.get());
   char why[1024] = "";
   if (!TIFFRGBAImageOK(file.get(), why)) throw damaged(std::string(": ") + why);
   Image image(static_cast<int>(width), static_cast<int>(height));
   auto* packed = reinterpret_cast<uint32_t*>(image.pixels.data());
   if (!TIFFReadRGBAImageOriented(file.get(), width, height, packed, ORIENTATION_TOPLEFT, 1))
     throw damaged("; it is damaged or incomplete");
-  make_straight(image);
+  unpack(image, is_straight);
   uint32_t size = 0;
   void* profile = nullptr;
   if (TIFFGetField(file.get(), TIFFTAG_ICCPROFILE, &size, &profile))

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/image.h"
+#include "scene/formats/image_formats.h"
 #include "scene/pictures.h"
 #include "support/catch.h"
 #include "support/complaint.h"
@@ -213,6 +214,60 @@ TEST_CASE("JPEG is read in gray, in both kinds of CMYK, and progressive") {
                decode_image(jpeg_file(image, {.progressive = true, .many_scans = true}), "a.jpg");
              }),
              Catch::Contains("more than 100 passes"));
+}
+
+TEST_CASE("Colors of faint pixels in TIFF pictures stay as they are") {
+  for (const unsigned seed : seeds_of("faint pixels", {1})) {
+    std::mt19937 random(seed);
+    Image image(60, 50);
+    for (std::uint8_t& value : image.pixels) value = static_cast<std::uint8_t>(random());
+    CHECK(decode_image(tiff_file(image, {}), "a.tif").pixels == image.pixels);
+  }
+}
+
+TEST_CASE("Attributes of OpenEXR pictures take no more memory than the file") {
+  const Image image = marked(40, 30);
+  const std::string plain = encode_exr(image, 16);
+  const Image shown = decode_image(plain, "a.exr");
+  // One strip of the picture starts at an offset that is stored after the header.
+  constexpr size_t kVersionEnd = 8;
+  const auto with_attribute = [&](const std::string& type, const std::string& value,
+                                  std::uint32_t length) {
+    const std::string added =
+        "extra" + std::string(1, 0) + type + std::string(1, 0) + little(length, 4) + value;
+    std::string bytes = plain;
+    bytes.insert(kVersionEnd, added);
+    const size_t table = bytes.find(std::string(1, 0), bytes.find("screenWindowWidth")) + 1 +
+                         std::strlen("float") + 1 + 4 + 4 + 1;
+    for (size_t strip = 0; strip < 2; ++strip) {
+      std::uint64_t at = 0;
+      std::memcpy(&at, bytes.data() + table + 8 * strip, 8);
+      at += added.size();
+      std::memcpy(bytes.data() + table + 8 * strip, &at, 8);
+    }
+    return bytes;
+  };
+  const std::string two_gigabytes = little(0x7fffffff, 4);
+  // Pictures of 65535 x 65535 pixels, lists of long texts, and types that nobody knows.
+  struct Attribute {
+    std::string type, value;
+  };
+  for (const Attribute& attribute : std::vector<Attribute>{{"preview", little(0xffff0000ffff, 8)},
+                                                           {"stringvector", two_gigabytes + "a"},
+                                                           {"idmanifest", two_gigabytes},
+                                                           {"bytes", two_gigabytes},
+                                                           {"unheard of", "abc"},
+                                                           {"string", "abc"}}) {
+    const std::string &type = attribute.type, &value = attribute.value;
+    CAPTURE(type);
+    CHECK(
+        decode_image(with_attribute(type, value, static_cast<std::uint32_t>(value.size())), "a.exr")
+            .pixels == shown.pixels);
+    for (const std::uint32_t length : {0x7fffffffu, 0xffffffffu, 100000u})
+      CHECK_THAT(
+          error_message_of([&] { decode_image(with_attribute(type, value, length), "a.exr"); }),
+          Catch::Contains("cannot be read: the file ends too early"));
+  }
 }
 
 TEST_CASE("A picture that ends too early anywhere gives an error that says so") {
