@@ -110,10 +110,12 @@ void injectivity_section(Workspace& workspace) {
     tooltip_of(workspace.actions.named("view.fold"));
   };
   const bool folds = !workspace.folds().empty();
+  if (folds) ImGui::AlignTextToFramePadding();
   colored_text(state.color,
                std::string(folds ? icon_named("warning") : icon_named("check")) + " " + state.text);
   if (folds) show_me("Show me");
   if (!folds && workspace.overlap()) {
+    ImGui::AlignTextToFramePadding();
     colored_text(c.warning, "Parts overlap");
     show_me("Show me##overlap");
   }
