@@ -16,15 +16,8 @@ double LogInbetween::mean_argument(const LogMap& map) const {
   return sums_.evaluated().function(map.l).imag().mean();
 }
 
-double LogInbetween::mean_argument(const LogMap& map, const std::vector<char>& held) const {
-  const VectorXd arguments = sums_.evaluated().function(map.l).imag();
-  double sum = 0, count = 0;
-  for (size_t i = 0; i < held.size(); ++i) {
-    if (!held[i]) continue;
-    sum += arguments[locator_.vertex_near(stations_[i])];
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
+double LogInbetween::argument_at(const LogMap& map, size_t station) const {
+  return sums_.evaluated().function(map.l)[locator_.vertex_near(stations_[station])].imag();
 }
 
 /// How much l and nu of two keys differ.
@@ -63,6 +56,22 @@ std::array<double, 4> LogInbetween::velocity(const LogCurve& curve, size_t at) c
     for (double& weight : velocity) weight *= 0.5;
   }
   return {};
+}
+
+double LogInbetween::slide(const LogKey& from, const LogKey& to,
+                           const std::vector<char>& held) const {
+  const VectorXc off = sums_.integrals(sums_.of({{0.5, &from.map}, {0.5, &to.map}})) -
+                       0.5 * (sums_.integrals(sums_.of({{1, &from.map}})) +
+                              sums_.integrals(sums_.of({{1, &to.map}})));
+  double most = 0;
+  std::optional<Complex> first;
+  for (size_t i = 0; i < held.size(); ++i) {  // integrals start at station 0
+    if (!held[i]) continue;
+    const Complex here = i == 0 ? Complex(0) : off[static_cast<Index>(i) - 1];
+    if (first) most = std::max(most, std::abs(here - *first));
+    if (!first) first = here;
+  }
+  return most;
 }
 
 LogInterval LogInbetween::interval(const std::array<const LogKey*, 4>& keys, bool smooth,

@@ -22,8 +22,11 @@ class LogInbetween {
 
   /// The mean of Im l over the mesh's vertices: the average rotation of the picture.
   double mean_argument(const LogMap& map) const;
-  /// The mean of Im l over the held stations; 0 if none is held.
-  double mean_argument(const LogMap& map, const std::vector<char>& held) const;
+  /// Im l at a station: the rotation of the picture there.
+  double argument_at(const LogMap& map, size_t station) const;
+  /// By how much stations that both keys hold leave their places halfway without a correction, at
+  /// most. It shows whether the whole turns between the keys are the right ones.
+  double slide(const LogKey& from, const LogKey& to, const std::vector<char>& held) const;
 
   /// Linear motion, or smooth motion that passes through an end with the velocity given by the keys
   /// on both sides, if there are any there. `keys` are the key before, which may be null, the two

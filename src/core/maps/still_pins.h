@@ -11,8 +11,8 @@ namespace holomorph {
 /// image in one key to its image in the other.
 inline constexpr double kStillPin = 1e-4;
 
-/// Whether the picture makes whole turns, if it turns by this angle in radians where such pins are,
-/// on average. It can then hold only one of them. An arm may turn farther without that.
+/// Whether the picture makes whole turns, if it turns by this angle in radians at the first such
+/// pin. It can then hold only one of them. An arm may turn farther without that.
 inline bool makes_whole_turns(double rotation) {
   return std::abs(rotation) > kPi;
 }

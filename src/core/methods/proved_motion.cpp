@@ -83,8 +83,8 @@ class LogMotion final : public ProvedMotion {
     for (const size_t i : shared_->setting.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
     const LogInbetween& between = shared_->between;
-    const bool turns = makes_whole_turns(between.mean_argument(keys[2]->map, held) -
-                                         between.mean_argument(keys[1]->map, held));
+    const bool turns = turns_at_held(keys, held);
+    if (!turns) turn_with_still_pins(keys, held);
     LogInterval own = between.interval({keys[0].get(), keys[1].get(), keys[2].get(), keys[3].get()},
                                        smooth, held, turns ? 1 : held.size());
     return std::make_unique<ProvedInterval>(shared_, std::make_shared<const Keys>(std::move(keys)),
@@ -101,6 +101,34 @@ class LogMotion final : public ProvedMotion {
   }
 
  private:
+  /// Adds a whole turn to the second half of the motion if pins that both ends hold slide much less
+  /// then. The rotation of the picture at one of them does not always tell.
+  void turn_with_still_pins(Keys& keys, const std::vector<char>& held) const {
+    if (std::ranges::count(held, char{1}) < 2) return;
+    const auto turned = [](LogKey key, int turns) {
+      key.map.l.array() += 2 * kPi * turns * kI;
+      return key;
+    };
+    int best = 0;
+    constexpr double kClearly = 0.5;
+    double least = kClearly * shared_->between.slide(*keys[1], *keys[2], held);
+    for (const int turns : {-1, 1})
+      if (const double slide = shared_->between.slide(*keys[1], turned(*keys[2], turns), held);
+          slide < least)
+        least = slide, best = turns;
+    if (best == 0) return;
+    for (const size_t k : {size_t{2}, size_t{3}})
+      if (keys[k]) *keys[k] = turned(std::move(*keys[k]), best);
+  }
+
+  /// Whether the picture makes whole turns where the first held pin is.
+  bool turns_at_held(const Keys& keys, const std::vector<char>& held) const {
+    const auto first = static_cast<size_t>(std::ranges::find(held, char{1}) - held.begin());
+    if (first == held.size()) return false;
+    return makes_whole_turns(shared_->between.argument_at(keys[2]->map, first) -
+                             shared_->between.argument_at(keys[1]->map, first));
+  }
+
   /// Null if the key is not certified.
   std::unique_ptr<LogKey> key_of(const MotionKey* key) const {
     if (!key || !key->extremes || !key->solution) return nullptr;

@@ -181,17 +181,14 @@ class SheetMotion final : public ProvedMotion {
   }
 
  private:
-  /// How far the picture turns at the still pins, on average; 0 if there are none.
+  /// How far the picture turns at the first still pin; 0 if there is none.
   double rotation_at(const std::vector<Held>& held, const Inbetween::Shape& from,
                      const Inbetween::Shape& to) const {
-    double sum = 0, count = 0;
-    for (size_t i = 0; i < held.size(); ++i) {
-      if (held[i] != Held::still) continue;
-      const Index t = setting_->solver->handles().places()[i].triangle;
-      sum += (to.logarithm[t] - from.logarithm[t]).imag();
-      ++count;
-    }
-    return count > 0 ? sum / count : 0;
+    const auto first = std::ranges::find(held, Held::still);
+    if (first == held.end()) return 0;
+    const auto pin = static_cast<size_t>(first - held.begin());
+    const Index t = setting_->solver->handles().places()[pin].triangle;
+    return (to.logarithm[t] - from.logarithm[t]).imag();
   }
   /// Lets all still pins but the first one slide.
   static void hold_one(std::vector<Held>& held) {
