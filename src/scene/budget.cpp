@@ -56,6 +56,11 @@ const std::vector<BudgetOption>& budget_options() {
   return all;
 }
 
+ProgramLimits reader_limits() {
+  const Budget most = budget();
+  return {most.reader_seconds, most.reader_memory};
+}
+
 std::string limit_text(double Budget::*limit) {
   const auto found = std::ranges::find(budget_options(), limit, &BudgetOption::limit);
   const double most = budget().*limit / found->per_unit;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "system/process.h"
 
 namespace holomorph {
 
@@ -34,6 +35,8 @@ struct BudgetOption {
 };
 const std::vector<BudgetOption>& budget_options();
 
+/// The limits of a program that reads a drawing, or a frame of a film.
+ProgramLimits reader_limits();
 /// A limit, for messages about what needs more: "20 s. Start with --max-reader-seconds 40 to
 /// raise it".
 std::string limit_text(double Budget::*limit);

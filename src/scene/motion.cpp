@@ -434,14 +434,14 @@ Motion::LocalMap Motion::local_map_at(Complex rest, const VectorXc& map) {
 /// Sets the turns of pins that have none to the rotation of the picture there. Otherwise, a pin
 /// whose fixed rotation is beyond half a turn would twist the picture against them.
 void Motion::add_turns(const Deformation& deformation, const VectorXc& map, Pose& pose) const {
+  const auto fixed =
+      std::ranges::find_if(deformation.pins, [](const Pin& pin) { return pin.angle.has_value(); });
+  if (fixed == deformation.pins.end()) return;
   const Mesh& mesh = between_->mesh();
   const Inbetween::Shape shape = between_->shape_of(map);
   std::vector<double> rotations;
   for (const Pin& pin : deformation.pins)
     rotations.push_back(shape.logarithm[locate_near(mesh, pin.rest).triangle].imag());
-  const auto fixed =
-      std::ranges::find_if(deformation.pins, [](const Pin& pin) { return pin.angle.has_value(); });
-  if (fixed == deformation.pins.end()) return;
   const auto first = static_cast<size_t>(fixed - deformation.pins.begin());
   const double whole =
       2 * kPi * std::round((pose.pins[first].angle - rotations[first]) / (2 * kPi));

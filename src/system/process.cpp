@@ -63,7 +63,7 @@ bool has_program(const std::string& name) {
 namespace {
 
 /// Sets a limit that the program itself could have set: never above its hard limit.
-void lower_limit(int pid, __rlimit_resource resource, double amount) {
+void lower_limit(int pid, decltype(RLIMIT_CPU) resource, double amount) {
   rlimit limit{};
   if (::prlimit(pid, resource, nullptr, &limit) != 0) return;  // it has ended
   const auto most = static_cast<double>(limit.rlim_max);

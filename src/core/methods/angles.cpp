@@ -176,9 +176,8 @@ class AnglesDeformer final : public Deformer {
     out.f = (placed.scale * f).array() + placed.move;
     const Index lost = count - out.f.array().isFinite().count();
     if (lost > 0) say(out, std::to_string(lost) + " points are bent too far to compute");
-    if (is_on_mesh_ && lost == 0)
-      if (const int flipped = flipped_triangles(*rest_.mesh, out.f); flipped > 0)
-        out.coarse_triangles = flipped, say(out, coarse_mesh_text(flipped));
+    if (is_on_mesh_ && lost == 0) out.coarse_triangles = flipped_triangles(*rest_.mesh, out.f);
+    if (out.coarse_triangles > 0) say(out, coarse_mesh_text(out.coarse_triangles));
     if (!options.derivatives || count == 0) return out;
     if (slopes_.rows() != count) slopes_ = slopes();
     const VectorXc theta = placed.theta.cast<Complex>();

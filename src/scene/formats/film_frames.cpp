@@ -90,11 +90,6 @@ double rate_of(const Json& stream) {
   return rate > 0 ? std::clamp(rate, kMinFrameRate, kMaxFrameRate) : 24;
 }
 
-ProgramLimits reader_limits() {
-  const Budget most = budget();
-  return {most.reader_seconds, most.reader_memory};
-}
-
 /// What ffprobe writes about a film.
 std::string probed(const Path& file, const std::vector<std::string>& question) {
   std::vector<std::string> words{"ffprobe", "-v", "error"};

@@ -41,9 +41,8 @@ Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget&
                 name +
                     ": drawings need the program rsvg-convert, which is not installed; install "
                     "the package librsvg2-bin");
-  const Budget most = budget();
   const auto drawn = run_program({"rsvg-convert", "--format", "png", "--unlimited"}, text.text,
-                                 {.limits = {most.reader_seconds, most.reader_memory}});
+                                 {.limits = reader_limits()});
   if (drawn && drawn->out_of_time)
     throw Error(ErrorKind::bad_input, name + ": drawing this file takes too long; the limit is " +
                                           limit_text(&Budget::reader_seconds));
