@@ -373,7 +373,8 @@ const MotionInterval* Motion::interval_from(size_t key) {
   for (size_t k = first; k <= last; ++k) {
     const Key& own = keys_[k];
     poses.push_back(used_by(method_named(prepared_->method), own.pose));
-    keys.push_back({own.solution, own.extremes, &poses.back(), &own.f, rotation, own.time});
+    keys.push_back({own.solution, own.extremes, &poses.back(), &own.f, rotation, own.time,
+                    own.turn_before.radians});
     if (k < last) rotation += rotation_after(k);
   }
   const size_t at = key - first;

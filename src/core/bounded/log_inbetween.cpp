@@ -60,16 +60,19 @@ std::array<double, 4> LogInbetween::velocity(const LogCurve& curve, size_t at) c
 
 double LogInbetween::slide(const LogKey& from, const LogKey& to,
                            const std::vector<char>& held) const {
-  const VectorXc off = sums_.integrals(sums_.of({{0.5, &from.map}, {0.5, &to.map}})) -
-                       0.5 * (sums_.integrals(sums_.of({{1, &from.map}})) +
-                              sums_.integrals(sums_.of({{1, &to.map}})));
+  const VectorXc at_from = sums_.integrals(sums_.of({{1, &from.map}})),
+                 at_to = sums_.integrals(sums_.of({{1, &to.map}}));
   double most = 0;
-  std::optional<Complex> first;
-  for (size_t i = 0; i < held.size(); ++i) {  // integrals start at station 0
-    if (!held[i]) continue;
-    const Complex here = i == 0 ? Complex(0) : off[static_cast<Index>(i) - 1];
-    if (first) most = std::max(most, std::abs(here - *first));
-    if (!first) first = here;
+  for (const double u : {0.25, 0.5, 0.75}) {
+    const VectorXc off = sums_.integrals(sums_.of({{1 - u, &from.map}, {u, &to.map}})) -
+                         (1 - u) * at_from - u * at_to;
+    std::optional<Complex> first;
+    for (size_t i = 0; i < held.size(); ++i) {  // integrals start at station 0
+      if (!held[i]) continue;
+      const Complex here = i == 0 ? Complex(0) : off[static_cast<Index>(i) - 1];
+      if (first) most = std::max(most, std::abs(here - *first));
+      if (!first) first = here;
+    }
   }
   return most;
 }

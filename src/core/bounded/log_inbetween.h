@@ -24,8 +24,9 @@ class LogInbetween {
   double mean_argument(const LogMap& map) const;
   /// Im l at a station: the rotation of the picture there.
   double argument_at(const LogMap& map, size_t station) const;
-  /// By how much stations that both keys hold leave their places halfway without a correction, at
-  /// most. It shows whether the whole turns between the keys are the right ones.
+  /// By how much stations that both keys hold leave their places between the keys without a
+  /// correction, at most, at three times. It shows whether the whole turns between the keys are the
+  /// right ones. Halfway alone, a turn to the left would look the same as one to the right.
   double slide(const LogKey& from, const LogKey& to, const std::vector<char>& held) const;
 
   /// Linear motion, or smooth motion that passes through an end with the velocity given by the keys

@@ -107,6 +107,7 @@ struct MotionKey {
   const VectorXc* f;    ///< at the mesh's vertices
   double rotation = 0;  ///< the average rotation of the picture in radians, with whole turns
   double time = 0;
+  double asked = 0;  ///< the rotation in radians since the key before it that pins or turns ask for
 };
 
 /// The motion from one key to the next.

@@ -11,10 +11,10 @@ namespace holomorph {
 /// image in one key to its image in the other.
 inline constexpr double kStillPin = 1e-4;
 
-/// Whether the picture makes whole turns, if it turns by this angle in radians at the first such
-/// pin. It can then hold only one of them. An arm may turn farther without that.
-inline bool makes_whole_turns(double rotation) {
-  return std::abs(rotation) > kPi;
+/// Whether the picture makes whole turns, because it was asked to turn by more than half a turn and
+/// does so at the first such pin. It can then hold only one of them. Angles are in radians.
+inline bool makes_whole_turns(double asked, double at_first) {
+  return std::abs(asked) > kPi && std::abs(at_first) > kPi;
 }
 
 }  // namespace holomorph

@@ -83,7 +83,7 @@ class LogMotion final : public ProvedMotion {
     for (const size_t i : shared_->setting.pins)
       held.push_back(from.pose->pins[i].position == to.pose->pins[i].position);
     const LogInbetween& between = shared_->between;
-    const bool turns = turns_at_held(keys, held);
+    const bool turns = makes_whole_turns(to.asked, rotation_at_held(keys, held));
     if (!turns) turn_with_still_pins(keys, held);
     LogInterval own = between.interval({keys[0].get(), keys[1].get(), keys[2].get(), keys[3].get()},
                                        smooth, held, turns ? 1 : held.size());
@@ -121,12 +121,12 @@ class LogMotion final : public ProvedMotion {
       if (keys[k]) *keys[k] = turned(std::move(*keys[k]), best);
   }
 
-  /// Whether the picture makes whole turns where the first held pin is.
-  bool turns_at_held(const Keys& keys, const std::vector<char>& held) const {
+  /// By how much the picture turns where the first held pin is; 0 if there is none.
+  double rotation_at_held(const Keys& keys, const std::vector<char>& held) const {
     const auto first = static_cast<size_t>(std::ranges::find(held, char{1}) - held.begin());
-    if (first == held.size()) return false;
-    return makes_whole_turns(shared_->between.argument_at(keys[2]->map, first) -
-                             shared_->between.argument_at(keys[1]->map, first));
+    if (first == held.size()) return 0;
+    return shared_->between.argument_at(keys[2]->map, first) -
+           shared_->between.argument_at(keys[1]->map, first);
   }
 
   /// Null if the key is not certified.

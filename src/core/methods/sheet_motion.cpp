@@ -171,7 +171,8 @@ class SheetMotion final : public ProvedMotion {
     std::vector<Held> held;
     for (size_t i = 0; i < setting_->solver->handles().pins().size(); ++i)
       held.push_back(held_by(*keys[1], *keys[2], i));
-    if (makes_whole_turns(rotation_at(held, keys[1]->shape, keys[2]->shape))) hold_one(held);
+    if (makes_whole_turns(to.asked, rotation_at(held, keys[1]->shape, keys[2]->shape)))
+      hold_one(held);
     return std::make_unique<SheetInterval>(setting_, std::move(keys), smooth, std::move(held));
   }
 
