@@ -66,7 +66,7 @@ bool Imports::add_layers_of(const LoadedScene& added, const std::string& label) 
     const auto all = handles_of(workspace_.shown.deformation(), EditMode::pose);
     workspace_.selection = Selection(all.begin(), all.end());
   }
-  workspace_.messages.complain(added.warning);
+  workspace_.messages.complain(added.message(LoadedScene::kFewLines));
   if (!added.pictures.withheld().empty()) workspace_.request = Request::show_withheld;
   if (first)
     first_();

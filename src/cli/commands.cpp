@@ -69,7 +69,7 @@ void run(const NewCommand& command) {
     throw Error(ErrorKind::bad_input, "--hole-width: give a percentage from 0 to 100");
   const Progress progress("new");
   const LoadedScene loaded = scene_of_image(command.image);
-  print_warning(loaded);
+  print_warning(loaded.message());
   const Image& picture = *loaded.image();
   const double height = picture.height;
   Deformation deformation = with_cage(

@@ -1,6 +1,7 @@
 // The commands map, inverse, coordinates and info, which print a scene's map as numbers.
 #include <cstdio>
 #include <iostream>
+#include <set>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/export.h"
+#include "scene/loading.h"
 #include "scene/report.h"
 #include "system/new_file.h"
 
@@ -150,6 +152,10 @@ void run(const CoordinatesCommand& command) {
 
 void run(const InfoCommand& command) {
   const Scene scene = read_scene(command).scene;
+  std::set<std::string> pictures;
+  for (const SharedLayer& layer : scene.layers)
+    if (layer->image && pictures.insert(layer->image->file).second)
+      print_warning(import_report(layer->image->file).text());
   require_cage(scene, command.scene);
   const std::vector<FrameTime> moments = moments_of(command.moments, scene, command.scene);
   std::vector<SceneReport> reports;

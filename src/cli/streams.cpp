@@ -2,6 +2,7 @@
 #include "cli/streams.h"
 
 #include <iostream>
+#include <sstream>
 
 #include "core/error.h"
 #include "scene/formats/export.h"
@@ -27,8 +28,10 @@ std::string read_input(const Path& input) {
   return is_standard(input) ? read_standard_input() : read_stream(input);
 }
 
-void print_warning(const LoadedScene& loaded) {
-  if (!loaded.warning.empty()) std::cerr << "holomorph: " << printable(loaded.warning) << "\n";
+void print_warning(const std::string& message) {
+  std::istringstream lines(message);
+  for (std::string line; std::getline(lines, line);)
+    std::cerr << "holomorph: " << printable(line) << "\n";
 }
 
 LoadedScene read_scene(const SceneCommand& command) {
@@ -43,7 +46,7 @@ LoadedScene read_scene(const SceneCommand& command) {
   LoadedScene loaded = is_standard(input) || streamed
                            ? scene_of_text(read_input(input), shown_name(input), options)
                            : load_scene(input, options);
-  print_warning(loaded);
+  print_warning(loaded.message());
   return loaded;
 }
 

@@ -17,6 +17,8 @@ std::string shown_output(const Path& out);
 
 /// The bytes of a file, a pipe or standard input. Throws Error.
 std::string read_input(const Path& input);
+/// Prints each line of a message about what was read.
+void print_warning(const std::string& message);
 /// Reads a scene and prints its warning, if any. Throws Error.
 LoadedScene read_scene(const SceneCommand& command);
 /// Throws Error if the scene has no cage.
@@ -56,8 +58,6 @@ class ResultWriter {
   std::unique_ptr<NewFile> file_;
 };
 void write_result(const Path& out, const std::string& bytes);
-
-void print_warning(const LoadedScene& loaded);
 
 /// Formats numbers like printf, but writes "-nan" as "nan", because CSV readers expect no sign.
 template <class... Numbers>

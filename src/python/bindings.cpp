@@ -149,7 +149,7 @@ class PythonScene {
   explicit PythonScene(LoadedScene loaded)
       : scene_(std::move(loaded.scene)),
         pictures_(std::move(loaded.pictures)),
-        warning_(std::move(loaded.warning)) {}
+        warning_(loaded.message()) {}
 
   static std::unique_ptr<PythonScene> load(const std::filesystem::path& path, bool outside) {
     const py::gil_scoped_release unlocked;

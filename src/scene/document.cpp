@@ -31,7 +31,7 @@ Document::Document(LoadedScene loaded, Path path)
       pictures_(std::move(loaded.pictures)),
       path_(std::move(path)),
       saved_(loaded.scene),
-      warning_(std::move(loaded.warning)),
+      warning_(loaded.message(LoadedScene::kFewLines)),
       stamp_{{}, std::move(loaded.sha256)} {}
 
 Document Document::open(const Path& path, const Reach& reach) {

@@ -69,7 +69,8 @@ Scene with_layer_at(Scene scene, size_t number, Layer layer) {
 
 Scene with_layers_added(Scene scene, const Scene& added) {
   if (scene.layers.size() + added.layers.size() > kMaxLayers)
-    throw Error(ErrorKind::bad_input, "a scene has at most 100 layers");
+    throw Error(ErrorKind::bad_input,
+                "a scene has at most " + std::to_string(kMaxLayers) + " layers");
   std::vector<Layer> more = layers_of(added);
   std::map<int, int> fresh;
   for (Layer& layer : more) layer.id = fresh[layer.id] = fresh_layer_id();

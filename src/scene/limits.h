@@ -6,7 +6,7 @@
 namespace holomorph {
 
 inline constexpr double kMaxCoordinate = 1e8;  ///< absolute value of x and y, in plane units
-inline constexpr size_t kMaxLayers = 100;
+inline constexpr size_t kMaxLayers = 400;
 inline constexpr int kMaxImageSide = 1 << 20;  ///< pixels
 inline constexpr size_t kMaxSegments = 5000;   ///< in one cage
 inline constexpr size_t kMaxHoles = 100;       ///< in one cage

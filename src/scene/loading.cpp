@@ -80,6 +80,11 @@ std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, 
 
 }  // namespace
 
+std::string LoadedScene::message(size_t lines) const {
+  const std::string changes = report.text(lines);
+  return warning + (warning.empty() || changes.empty() ? "" : "\n") + changes;
+}
+
 std::string read_scene_file(const Path& path) {
   std::error_code missing;
   const auto size = fs::file_size(path, missing);
@@ -200,13 +205,37 @@ Layer layer_of_picture(const Path& file, const std::string& entry, PictureFiles&
 
 }  // namespace
 
+namespace {
+
+/// The layers of a picture's file, if it has some. If there are too many, the lowest are left out.
+FileLayers contents_of(const Path& path) {
+  FileLayers all;
+  if (!is_named_as(path, FileContent::film)) {
+    const std::string bytes = read_file(path);
+    if (may_have_layers(path)) all = layers_of_file(bytes, path.string());
+    if (all.layers.empty()) all.report.add(report_of_image(bytes));
+  }
+  all.report.file = path.filename().string();
+  if (all.layers.size() <= kMaxLayers) return all;
+  const size_t over = all.layers.size() - kMaxLayers;
+  all.layers.erase(all.layers.begin(), all.layers.begin() + static_cast<std::ptrdiff_t>(over));
+  all.report.add("", "left out: the lowest " + std::to_string(over) +
+                         " of its layers, because a scene has at most " +
+                         std::to_string(kMaxLayers));
+  return all;
+}
+
+}  // namespace
+
+ImportReport import_report(const Path& image) {
+  return contents_of(image).report;
+}
+
 LoadedScene scene_of_image(const Path& path, double open_pixels) {
   LoadedScene loaded;
   PictureFiles files(open_pixels);
-  FileLayers in_file;
-  if (may_have_layers(path)) in_file = layers_of_file(read_file(path), path.string());
-  if (!in_file.warning.empty())
-    loaded.warning = "Not kept from this file: " + in_file.warning + ". ";
+  FileLayers in_file = contents_of(path);
+  loaded.report = std::move(in_file.report);
   if (in_file.layers.empty()) {
     loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
     if (const Clip* clip = clip_of(loaded.scene.layer()))
@@ -218,10 +247,6 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
   }
   std::vector<Layer> layers;
   for (const FileLayer& each : in_file.layers) {
-    if (layers.size() == kMaxLayers) {
-      loaded.warning += "Only the lowest 100 layers were opened.";
-      break;
-    }
     Layer layer = layer_of_picture(path, each.entry, files, loaded.pictures);
     layer.id = static_cast<int>(layers.size()) + 1;
     layer.name = each.name;

@@ -1,6 +1,7 @@
 // Loads scenes, pictures and surfaces from disk, along with all files that they refer to.
 #pragma once
 
+#include "scene/formats/import_report.h"
 #include "scene/layers.h"
 #include "scene/pictures.h"
 #include "scene/reach.h"
@@ -13,8 +14,12 @@ struct LoadedScene {
   Scene scene;  ///< with absolute paths
   Pictures pictures;
   std::string warning;  ///< for example, that a picture has changed since the scene was saved
+  ImportReport report;  ///< what opening a picture has changed
   std::string sha256;   ///< hash of the scene's text
 
+  /// The warning and the first lines of the report, for people; empty if there is nothing to say.
+  std::string message(size_t lines = ~size_t{0}) const;
+  static constexpr size_t kFewLines = 5;  ///< of the report, for the window
   /// The picture of the edited layer; null if it has none.
   const Image* image() const { return pictures.of(scene.layer()); }
 };
@@ -38,6 +43,9 @@ LoadedScene scene_of_text(const std::string& text, const Path& path,
 /// The scene of a pasted picture, which is stored in pasted_folder(). Saving a scene places copies
 /// of such pictures next to the scene file. Throws Error.
 LoadedScene scene_of_pasted(const std::string& png);
+
+/// What opening a picture changes: the report of scene_of_image(). Empty for films. Throws Error.
+ImportReport import_report(const Path& image);
 
 /// The scene of a single picture file, without a cage. Each layer of a PSD or OpenRaster
 /// file becomes a layer of the scene.

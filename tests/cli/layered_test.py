@@ -2,7 +2,6 @@
 import io
 import os
 import random
-import struct
 import sys
 import zipfile
 
@@ -120,19 +119,6 @@ class Layered(Case):
             small = Image.open(io.BytesIO(archive.read("Thumbnails/thumbnail.png")))
         self.assertEqual(merged.tobytes(), Image.open(self.path("whole.png")).convert("RGBA").tobytes())
         self.assertLessEqual(max(small.size), 256)
-
-    def test_psd_with_16_bits_opens_as_one_picture_and_cmyk_not_at_all(self):
-        for channels, bits, mode in ((3, 16, 3), (4, 8, 4), (4, 16, 4)):
-            shades = b"".join((bytes([40 * k]) * (bits // 8)) * 48 for k in range(1, channels + 1))
-            with open(self.path("a.psd"), "wb") as file:
-                file.write(b"8BPS" + struct.pack(">H6xHIIHHIIIH", 1, channels, 6, 8, bits, mode, 0, 0, 0, 0) + shades)
-            words = ["new", self.path("a.psd"), "--out", self.path("a.json"), "--force"]
-            if mode == 4:
-                self.bad(*words, says="a.psd")
-                continue
-            self.assertIn("16 bits", self.good(*words).stderr)
-            self.good("render", self.path("a.json"), "--out", self.path("a.png"))
-            self.assertEqual(Image.open(self.path("a.png")).convert("RGB").getpixel((3, 3)), (40, 80, 120))
 
     def test_what_the_formats_cannot_do_is_refused(self):
         path = self.write("scene.json", self.scene(random.Random(7), 2))

@@ -14,7 +14,7 @@
 namespace holomorph {
 namespace {
 
-constexpr double kShownMs = 4500, kProblemMs = 9000, kLeavesMs = 150;
+constexpr double kShownMs = 4500, kProblemMs = 9000, kLeavesMs = 150, kReadingMs = 20;
 constexpr double kWidest = 480;
 
 }  // namespace
@@ -27,7 +27,8 @@ void Toasts::draw(Workspace& workspace, const OverlayStyle& style, double now_ms
   for (Toast& toast : std::exchange(workspace.messages.toasts, {})) {
     // A repeated message is shown longer instead of twice.
     std::erase_if(shown_, [&](const Shown& shown) { return shown.toast.text == toast.text; });
-    const double until = now_ms + (toast.problem ? kProblemMs : kShownMs);
+    const double until = now_ms + (toast.problem ? kProblemMs : kShownMs) +
+                         kReadingMs * static_cast<double>(toast.text.size());
     shown_.push_back({std::move(toast), until, step});
   }
   const ThemeColors& c = theme_colors();

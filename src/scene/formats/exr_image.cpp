@@ -6,6 +6,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfVersion.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.h"
 #include "scene/formats/exr.h"
@@ -236,6 +238,27 @@ Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget&
     throw;
   } catch (const std::exception& error) {
     throw Error(ErrorKind::bad_input, name + ": the picture cannot be read: " + error.what());
+  }
+}
+
+void report_exr(const std::string& bytes, ImportReport& report) {
+  const std::string name;
+  try {
+    ExrStream stream(bytes, name);
+    const Imf::MultiPartInputFile file(stream, 1);
+    report_first_of(static_cast<size_t>(file.parts()), "parts", report);
+    const Imf::ChannelList& channels = file.header(0).channels();
+    const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+    const std::set<std::string> colors = has("R") || has("G") || has("B")
+                                             ? std::set<std::string>{"R", "G", "B", "A"}
+                                             : std::set<std::string>{"Y", "RY", "BY", "A"};
+    size_t others = 0;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+      others += !colors.contains(channel.name());
+    if (others > 0)
+      report.add("", "left out: its " + std::to_string(others) + " channels that are not colors");
+  } catch (const std::exception&) {
+    report.add("", "left out: its further parts, which are damaged");
   }
 }
 

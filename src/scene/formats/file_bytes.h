@@ -52,6 +52,10 @@ class FileBytes {
   [[noreturn]] void damaged(const std::string& why) const {
     throw Error(ErrorKind::bad_input, name_ + ": the picture is damaged (" + why + ")");
   }
+  /// Of intact files with something that is not read.
+  [[noreturn]] void unsupported(const std::string& what) const {
+    throw Error(ErrorKind::bad_input, name_ + ": " + what);
+  }
   size_t size() const { return bytes_.size(); }
   const std::string& name() const { return name_; }
 

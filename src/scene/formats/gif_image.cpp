@@ -38,9 +38,25 @@ class GifReader {
     if (!file_) fail();
   }
 
+  /// The number of pictures from here on. What is damaged after the first one does not count.
+  size_t count() {
+    size_t pictures = 0;
+    try {
+      for (; find_picture(); ++pictures) {
+        GifByteType* block = nullptr;
+        int code = 0;
+        must(DGifGetCode(file_.get(), &code, &block));
+        while (block) must(DGifGetCodeNext(file_.get(), &block));
+      }
+    } catch (const Error&) {
+      return pictures;
+    }
+    return pictures;
+  }
+
   Image read(PixelBudget& pixels) {
     pixels.take(static_cast<unsigned>(file_->SWidth), static_cast<unsigned>(file_->SHeight), name_);
-    find_picture();
+    if (!find_picture()) fail();
     PixelBudget frame;  // parts outside the canvas are decoded too
     frame.take(static_cast<size_t>(file_->Image.Width), static_cast<size_t>(file_->Image.Height),
                name_);
@@ -69,11 +85,16 @@ class GifReader {
   }
 
  private:
-  void find_picture() {
+  /// Goes to the next picture. Returns whether there is one.
+  bool find_picture() {
     while (true) {
       GifRecordType type;
       must(DGifGetRecordType(file_.get(), &type));
-      if (type == IMAGE_DESC_RECORD_TYPE) return must(DGifGetImageDesc(file_.get()));
+      if (type == TERMINATE_RECORD_TYPE) return false;
+      if (type == IMAGE_DESC_RECORD_TYPE) {
+        must(DGifGetImageDesc(file_.get()));
+        return true;
+      }
       if (type != EXTENSION_RECORD_TYPE) fail();
       int code = 0;
       GifByteType* block = nullptr;
@@ -106,6 +127,10 @@ class GifReader {
 
 bool is_gif(const std::string& bytes) {
   return bytes.starts_with("GIF8");
+}
+
+void report_gif(const std::string& bytes, ImportReport& report) {
+  report_first_of(GifReader(bytes, "").count(), "pictures", report);
 }
 
 Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget& pixels) {

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/formats/image_formats.h"
+#include "scene/formats/psd_image.h"
 #include "system/text.h"
 
 namespace holomorph {
@@ -94,12 +95,28 @@ Image decode_image(const std::string& bytes, const std::string& name, PixelBudge
   if (is_exr(bytes)) return decode_exr(bytes, name, pixels, depth);
   if (is_gif(bytes)) return decode_gif(bytes, name, pixels);
   if (is_ora(bytes)) return decode_ora(bytes, name, pixels);
+  if (is_psd(bytes)) return decode_psd(bytes, name, pixels);
   if (is_svg(bytes)) return decode_svg(bytes, name, pixels);
   if (std::optional<Image> plain = decode_plain(bytes, name, pixels)) return std::move(*plain);
   throw Error(ErrorKind::bad_input,
               name +
                   ": not a picture in a supported format (PNG, JPEG, WebP, TIFF, OpenRaster, "
                   "OpenEXR, SVG, BMP, TGA, GIF or PSD)");
+}
+
+void report_first_of(size_t pictures, const char* what, ImportReport& report) {
+  if (pictures > 1)
+    report.add("", "only the first of its " + std::to_string(pictures) + " " + what + " is opened");
+}
+
+ImportReport report_of_image(const std::string& bytes) {
+  ImportReport report;
+  if (is_png(bytes)) report_png(bytes, report);
+  if (is_webp(bytes)) report_webp(bytes, report);
+  if (is_tiff(bytes)) report_tiff(bytes, report);
+  if (is_exr(bytes)) report_exr(bytes, report);
+  if (is_gif(bytes)) report_gif(bytes, report);
+  return report;
 }
 
 bool has_fine_pixels(const std::string& start) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/types.h"
+#include "scene/formats/import_report.h"
 #include "system/file.h"
 
 namespace holomorph {
@@ -72,6 +73,8 @@ inline Image decode_image(const std::string& bytes, const std::string& name) {
   PixelBudget alone;
   return decode_image(bytes, name, alone);
 }
+/// What decode_image() leaves out of a file that it can decode.
+ImportReport report_of_image(const std::string& bytes);
 /// Whether a file that starts with these bytes may have more than 8 bits that can be read.
 bool has_fine_pixels(const std::string& start);
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "scene/formats/image.h"
+#include "scene/formats/import_report.h"
 
 namespace holomorph {
 
@@ -26,12 +27,25 @@ Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget&
 /// OpenRaster: the merged picture of all layers that the file contains.
 bool is_ora(const std::string& bytes);
 Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget& pixels);
+/// How large drawings become pictures.
+enum class DrawingSize { fit_for_work, own };
 /// SVG: drawn as large as svg_document_of() says. Needs the program rsvg-convert.
 bool is_svg(const std::string& bytes);
-Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels);
-/// BMP, TGA and PSD. None if the file has a different format.
+Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                 DrawingSize size = DrawingSize::fit_for_work);
+/// BMP and TGA. None if the file has a different format.
 std::optional<Image> decode_plain(const std::string& bytes, const std::string& name,
                                   PixelBudget& pixels);
+
+// What the decoders above leave out of a file that they can decode, for the import report: pictures
+// after the first one, and bits.
+void report_png(const std::string& bytes, ImportReport& report);
+void report_webp(const std::string& bytes, ImportReport& report);
+void report_tiff(const std::string& bytes, ImportReport& report);
+void report_exr(const std::string& bytes, ImportReport& report);
+void report_gif(const std::string& bytes, ImportReport& report);
+/// "shown: the first of its 12 pictures"; nothing if there is one.
+void report_first_of(size_t pictures, const char* what, ImportReport& report);
 
 /// A PNG file with 16 bits, in sRGB. Throws Error{failed}.
 std::string encode_png_16(const Image& image);

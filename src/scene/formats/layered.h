@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/formats/image.h"
+#include "scene/formats/import_report.h"
 #include "scene/scene.h"
 
 namespace holomorph {
@@ -18,11 +19,11 @@ struct FileLayer {
   std::string lost = {};  ///< what cannot be kept, such as "its effects"; empty if nothing
 };
 
-/// The layers of a file from bottom to top, as a flat list without groups; empty if the file has no
-/// layers that can be read. `warning` says which parts of the file are lost.
+/// The layers of a file from bottom to top, as a flat list without groups; empty if the file has
+/// none.
 struct FileLayers {
   std::vector<FileLayer> layers;
-  std::string warning;
+  ImportReport report;
 };
 
 /// Whether files with this name may have layers.

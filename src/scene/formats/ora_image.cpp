@@ -49,9 +49,10 @@ class Archive {
   }
 
   Image picture(const std::string& entry, PixelBudget& pixels) const {
-    const std::string bytes = read(entry);
-    if (!is_png(bytes)) fail(name_, entry + " is not a PNG file");
-    return decode_png(bytes, name_ + ", " + entry, pixels, PixelDepth::eight_bits);
+    const std::string bytes = read(entry), name = name_ + ", " + entry;
+    if (is_png(bytes)) return decode_png(bytes, name, pixels, PixelDepth::eight_bits);
+    if (is_svg(bytes)) return decode_svg(bytes, name, pixels, DrawingSize::own);
+    fail(name_, entry + " is neither a PNG file nor a drawing");
   }
 
   std::string read(const std::string& entry, zip_uint64_t most = kLargestEntry) const {
@@ -82,6 +83,7 @@ struct Placed {
 struct Stack {
   int width = 0, height = 0;
   std::vector<Placed> layers;  ///< from top to bottom, as in the file
+  ImportReport report;
 };
 
 int offset(const pugi::xml_node& node, const char* name) {
@@ -89,7 +91,11 @@ int offset(const pugi::xml_node& node, const char* name) {
 }
 
 void collect(const pugi::xml_node& group, const Placed& inherited, int depth, Stack& stack) {
-  if (depth > kDeepestGroup) return;
+  if (depth > kDeepestGroup) {
+    stack.report.add(inherited.layer.name,
+                     "left out: what is in it, because groups are nested too deeply");
+    return;
+  }
   for (const pugi::xml_node& node : group.children()) {
     Placed here = inherited;
     here.layer.name = node.attribute("name").as_string();
@@ -106,10 +112,14 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
     here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
     here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
     if (is_group) collect(node, here, depth + 1, stack);
-    if (std::string(node.name()) != "layer") continue;
+    if (is_group || node.type() != pugi::node_element) continue;
     here.layer.entry = node.attribute("src").as_string();
-    if (lower_case(Path(here.layer.entry).extension().string()) == ".png")
+    const std::string kind = lower_case(Path(here.layer.entry).extension().string());
+    if (std::string(node.name()) == "layer" && (kind == ".png" || kind == ".svg"))
       stack.layers.push_back(here);
+    else
+      stack.report.add(here.layer.name, "left out: the whole layer, a " + std::string(node.name()) +
+                                            " that is neither a PNG picture nor an SVG drawing");
   }
 }
 
@@ -118,7 +128,7 @@ Stack stack_of(const Archive& archive, const std::string& name) {
   pugi::xml_document document;
   if (!document.load_buffer(text.data(), text.size())) fail(name, "stack.xml is not an XML file");
   const pugi::xml_node image = document.child("image");
-  Stack stack{image.attribute("w").as_int(), image.attribute("h").as_int(), {}};
+  Stack stack{image.attribute("w").as_int(), image.attribute("h").as_int(), {}, {}};
   if (stack.width < 1 || stack.height < 1) fail(name, "its canvas is empty");
   PixelBudget one;
   one.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
@@ -145,11 +155,11 @@ Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget&
 FileLayers ora_layers(const std::string& bytes, const std::string& name) {
   const Stack stack = stack_of(Archive(bytes, name), name);
   FileLayers all;
+  all.report = stack.report;
   for (size_t i = stack.layers.size(); i-- > 0;) {
     const FileLayer& layer = stack.layers[i].layer;
     all.layers.push_back(layer);
-    if (!layer.lost.empty())
-      all.warning += (all.warning.empty() ? "" : "; ") + layer.name + ": " + layer.lost;
+    if (!layer.lost.empty()) all.report.add(layer.name, "left out: " + layer.lost);
   }
   return all;
 }

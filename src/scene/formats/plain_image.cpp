@@ -1,4 +1,4 @@
-// Reads BMP, TGA and PSD files with stb_image. stb_image reads missing bytes as zeros and does not
+// Reads BMP and TGA files with stb_image. stb_image reads missing bytes as zeros and does not
 // check the sizes in a file. Therefore this file first checks that all pixels are present.
 #include "core/error.h"
 #include "scene/formats/file_bytes.h"
@@ -8,7 +8,6 @@
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
-#define STBI_ONLY_PSD
 #define STBI_NO_STDIO
 #define STBI_NO_THREAD_LOCALS
 #pragma GCC diagnostic push
@@ -71,35 +70,6 @@ void check_tga(const FileBytes& file, const Size& size) {
   }
 }
 
-Size psd_size(const FileBytes& file) {
-  return {file.big(18, 4), file.big(14, 4)};
-}
-
-void check_psd(const FileBytes& file, const Size& size) {
-  const size_t channels = file.big(12, 2), bytes = file.big(22, 2) / 8;
-  size_t place = 26;
-  for (int section = 0; section < 3; ++section) {
-    const size_t length = file.big(place, 4);
-    file.need(place, length);
-    place += 4 + length;
-  }
-  const size_t packed = file.big(place, 2), rows = channels * size.height;
-  place += 2;
-  if (packed == 0) return file.need(place, rows * size.width * bytes);
-  if (packed != 1) file.damaged("its compression is unknown");
-  if (bytes != 1) file.damaged("compression with 16 bits is not supported");
-  place += 2 * rows;  // skip the row lengths
-  for (size_t channel = 0; channel < channels; ++channel)
-    for (size_t left = size.width * size.height; left > 0;) {
-      const size_t head = file.at(place), repeats = head > 128;
-      const size_t count = head == 128 ? 0 : repeats ? 257 - head : head + 1;
-      if (count > left) file.damaged("its rows have the wrong length");
-      place += 1 + (head == 128 ? 0 : repeats ? 1 : count);
-      file.need(place, 0);
-      left -= count;
-    }
-}
-
 /// Whether a file is a TGA file. The format has no signature, so this checks that all fields of the
 /// header are plausible.
 bool is_tga(const std::string& bytes) {
@@ -140,7 +110,6 @@ std::optional<Image> decode_plain(const std::string& bytes, const std::string& n
                                   PixelBudget& pixels) {
   const FileBytes file(bytes, name);
   if (bytes.starts_with("BM")) return decode(bytes, name, bmp_size(file), pixels, check_bmp);
-  if (bytes.starts_with("8BPS")) return decode(bytes, name, psd_size(file), pixels, check_psd);
   if (is_tga(bytes)) return decode(bytes, name, tga_size(file), pixels, check_tga);
   return {};
 }

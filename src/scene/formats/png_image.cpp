@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "scene/budget.h"
+#include "scene/formats/file_bytes.h"
 #include "scene/formats/image_formats.h"
 #include "scene/formats/to_srgb.h"
 
@@ -233,6 +234,21 @@ class PngWriter {
 
 bool is_png(const std::string& bytes) {
   return bytes.starts_with("\x89PNG");
+}
+
+/// The chunk acTL of an animated PNG file begins with the number of frames. It comes before the
+/// pixels.
+void report_png(const std::string& bytes, ImportReport& report) {
+  constexpr size_t kSignature = 8, kAround = 12;  // bytes of a chunk around its content
+  const FileBytes file(bytes, "");
+  for (size_t place = kSignature; place + kAround <= file.size();) {
+    const size_t length = file.big(place, 4);
+    const std::string kind = file.text(place + 4, 4);
+    if (kind == "IDAT" || kind == "IEND") return;
+    if (kind == "acTL" && length >= 4)
+      return report_first_of(file.big(place + 8, 4), "pictures", report);
+    place += kAround + length;
+  }
 }
 
 Image decode_png(const std::string& bytes, const std::string& name, PixelBudget& pixels,

@@ -174,7 +174,7 @@ Box extent_of_text(const pugi::xml_node& text, const Viewport& viewport) {
   return box;
 }
 
-SvgDocument svg_document_of(const std::string& text, const std::string& name) {
+SvgDocument svg_document_of(const std::string& text, const std::string& name, DrawingSize wanted) {
   constexpr double kSmall = 512, kEnlarged = 1024, kLongest = 4096;  // of the longer side
   SvgDocument document;
   document.name = name;
@@ -186,7 +186,9 @@ SvgDocument svg_document_of(const std::string& text, const std::string& name) {
   const double longer = std::max(size.width, size.height);
   if (!(std::min(size.width, size.height) > 0) || !(longer < 1e9))
     throw Error(ErrorKind::bad_input, name + ": the drawing is empty or has no size");
-  const double scale = longer < kSmall ? kEnlarged / longer : std::min(1.0, kLongest / longer);
+  const double scale = wanted == DrawingSize::own ? 1
+                       : longer < kSmall          ? kEnlarged / longer
+                                                  : std::min(1.0, kLongest / longer);
   document.width = size.width;
   document.height = size.height;
   document.columns = std::max(1, static_cast<int>(std::lround(scale * size.width)));

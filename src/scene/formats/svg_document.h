@@ -5,6 +5,7 @@
 
 #include <pugixml.hpp>
 
+#include "scene/formats/image_formats.h"
 #include "scene/formats/svg_shapes.h"
 
 namespace holomorph {
@@ -21,12 +22,13 @@ struct SvgDocument {
   pugi::xml_node root() const { return xml.document_element(); }
 };
 
-/// Reads an SVG file and applies its style sheets. The picture has the drawing's own size, but the
-/// longer side of small drawings (less than 512 pixels) becomes 1024 pixels, and that of large ones
-/// 4096. A drawing without a size has that of its content. Throws Error{bad_input} if it is not an
-/// SVG file, if it is nested too deeply, or if it has no size. Cost: linear, and that of the style
-/// sheets.
-SvgDocument svg_document_of(const std::string& text, const std::string& name);
+/// Reads an SVG file and applies its style sheets. With DrawingSize::own, the picture has the
+/// drawing's own size. Otherwise, the longer side of small drawings (less than 512 pixels) becomes
+/// 1024 pixels, and that of large ones 4096. A drawing without a size has that of its content.
+/// Throws Error{bad_input} if it is not an SVG file, if it is nested too deeply, or if it has no
+/// size. Cost: linear, and that of the style sheets.
+SvgDocument svg_document_of(const std::string& text, const std::string& name,
+                            DrawingSize size = DrawingSize::fit_for_work);
 
 /// Parses XML, with the entities that the file declares. Throws Error{bad_input} if it is damaged,
 /// nested too deeply, or if entities make it too long.

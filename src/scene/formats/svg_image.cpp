@@ -26,8 +26,9 @@ bool is_svg(const std::string& bytes) {
          std::string_view(bytes).substr(first, kFarthest).find(":svg") != std::string_view::npos;
 }
 
-Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
-  SvgDocument document = svg_document_of(bytes, name);
+Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels,
+                 DrawingSize size) {
+  SvgDocument document = svg_document_of(bytes, name, size);
   const auto columns = static_cast<size_t>(document.columns),
              rows = static_cast<size_t>(document.rows);
   pixels.take(columns, rows, name);

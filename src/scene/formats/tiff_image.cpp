@@ -81,6 +81,20 @@ struct CloseTiff {
   void operator()(TIFF* file) const { TIFFClose(file); }
 };
 
+/// Null if the file cannot be opened.
+std::unique_ptr<TIFF, CloseTiff> opened(Stream& stream, const std::string& name) {
+  constexpr tmsize_t kLargestBlock = tmsize_t{1} << 30;  // bytes of a strip or a tile
+  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                             TIFFOpenOptionsFree);
+  const auto quiet = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kLargestBlock);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), quiet, nullptr);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), quiet, nullptr);
+  return std::unique_ptr<TIFF, CloseTiff>(TIFFClientOpenExt(name.c_str(), "rm", &stream, read,
+                                                            no_write, seek, no_close, size_of,
+                                                            nullptr, nullptr, options.get()));
+}
+
 }  // namespace
 
 bool is_tiff(const std::string& bytes) {
@@ -89,18 +103,22 @@ bool is_tiff(const std::string& bytes) {
   return head == "II*\0"sv || head == "MM\0*"sv;
 }
 
-Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
-  constexpr tmsize_t kLargestBlock = tmsize_t{1} << 30;  // bytes of a strip or a tile
-  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
-                                                                             TIFFOpenOptionsFree);
-  const auto quiet = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kLargestBlock);
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), quiet, nullptr);
-  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), quiet, nullptr);
+void report_tiff(const std::string& bytes, ImportReport& report) {
   Stream stream{bytes};
-  const std::unique_ptr<TIFF, CloseTiff> file(TIFFClientOpenExt(name.c_str(), "rm", &stream, read,
-                                                                no_write, seek, no_close, size_of,
-                                                                nullptr, nullptr, options.get()));
+  const auto file = opened(stream, "");
+  if (!file) return;
+  uint16_t bits = 8, count = 0, *kinds = nullptr;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetField(file.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds);
+  if (bits > 8)
+    report.add("", "its " + std::to_string(bits) + " bits per channel are rounded to 8");
+  if (count > 1) report.add("", "left out: its channels after the first extra one");
+  report_first_of(TIFFNumberOfDirectories(file.get()), "pages", report);
+}
+
+Image decode_tiff(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
+  Stream stream{bytes};
+  const auto file = opened(stream, name);
   const auto damaged = [&](const std::string& why) {
     return Error(ErrorKind::bad_input, name + ": the TIFF picture cannot be read" + why);
   };

@@ -229,6 +229,15 @@ std::vector<float> fine_in_srgb(const DeepImage& image, const Chromaticities& pr
   return profile ? fine_converted(image, profile) : fine_samples(image);
 }
 
+void lab_to_srgb(Image& image) {
+  const Profile lab(cmsCreateLab4Profile(nullptr));
+  constexpr cmsUInt32Number kLabWithAlpha = TYPE_Lab_8 | EXTRA_SH(1);
+  const Conversion found = conversion(lab, kLabWithAlpha);
+  for (int r = 0; found && r < image.height; ++r)
+    cmsDoTransform(found.get(), image.at(0, r), image.at(0, r),
+                   static_cast<cmsUInt32Number>(image.width));
+}
+
 struct CmykToSrgb::Transform {
   Conversion conversion;
 };

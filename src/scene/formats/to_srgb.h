@@ -38,6 +38,9 @@ class CmykToSrgb {
   std::unique_ptr<Transform> transform_;  ///< null without a usable CMYK profile
 };
 
+/// Converts a picture whose colors are CIELAB to sRGB: L* is 0 to 255, a* and b* are moved by 128.
+void lab_to_srgb(Image& image);
+
 /// The color space of a PNG file without a profile: the x and y chromaticities of white, red, green
 /// and blue. `gamma` is the exponent of the samples.
 struct Chromaticities {

@@ -1,5 +1,6 @@
 // Reads and writes WebP files with libwebp.
 #include <webp/decode.h>
+#include <webp/demux.h>
 #include <webp/encode.h>
 #include <webp/mux.h>
 
@@ -17,6 +18,21 @@ bool is_webp(const std::string& bytes) {
 }
 
 namespace {
+
+/// Draws the first frame of an animated picture, as large as its canvas.
+bool decode_first_frame(const std::string& bytes, Image& image) {
+  const WebPData file{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+  WebPAnimDecoderOptions options;
+  if (!WebPAnimDecoderOptionsInit(&options)) return false;
+  options.color_mode = MODE_RGBA;
+  const std::unique_ptr<WebPAnimDecoder, void (*)(WebPAnimDecoder*)> decoder(
+      WebPAnimDecoderNew(&file, &options), WebPAnimDecoderDelete);
+  uint8_t* pixels = nullptr;
+  int time = 0;
+  if (!decoder || !WebPAnimDecoderGetNext(decoder.get(), &pixels, &time)) return false;
+  std::copy_n(pixels, image.pixels.size(), image.pixels.data());
+  return true;
+}
 
 /// A chunk with metadata, such as Exif data or a color profile; empty if there is none.
 std::string chunk_of(const std::string& bytes, const char* kind) {
@@ -36,15 +52,19 @@ int orientation_of(const std::string& bytes) {
 
 }  // namespace
 
+void report_webp(const std::string& bytes, ImportReport& report) {
+  const WebPData file{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+  const std::unique_ptr<WebPMux, void (*)(WebPMux*)> mux(WebPMuxCreate(&file, 0), WebPMuxDelete);
+  int frames = 0;
+  if (mux && WebPMuxNumChunks(mux.get(), WEBP_CHUNK_ANMF, &frames) == WEBP_MUX_OK)
+    report_first_of(static_cast<size_t>(frames), "pictures", report);
+}
+
 Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget& pixels) {
   const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
   WebPBitstreamFeatures features{};
   if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
     throw Error(ErrorKind::bad_input, name + ": the WebP picture is damaged");
-  if (features.has_animation)
-    throw Error(
-        ErrorKind::bad_input,
-        name + ": the WebP picture is animated; save one of its frames as a picture and open that");
   // The header contains the length of the file.
   const auto byte = [&](size_t i) { return static_cast<size_t>(data[i]); };
   if ((byte(4) | byte(5) << 8 | byte(6) << 16 | byte(7) << 24) + 8 > bytes.size())
@@ -52,8 +72,10 @@ Image decode_webp(const std::string& bytes, const std::string& name, PixelBudget
                 name + ": the picture is incomplete: the file ends too early");
   pixels.take(static_cast<size_t>(features.width), static_cast<size_t>(features.height), name);
   Image image(features.width, features.height);
-  if (!WebPDecodeRGBAInto(data, bytes.size(), image.pixels.data(), image.pixels.size(),
-                          4 * image.width))
+  if (!(features.has_animation
+            ? decode_first_frame(bytes, image)
+            : WebPDecodeRGBAInto(data, bytes.size(), image.pixels.data(), image.pixels.size(),
+                                 4 * image.width) != nullptr))
     throw Error(ErrorKind::bad_input, name + ": the WebP picture is damaged");
   if (const std::string profile = chunk_of(bytes, "ICCP"); !profile.empty())
     to_srgb(image, profile);

@@ -117,7 +117,7 @@ TEST_CASE("PSD and OpenRaster give back the layers that were written") {
         const std::string bytes = format.encode(picture);
         CHECK(format.encode(picture) == bytes);
         const FileLayers read = layers_of_file(bytes, "a");
-        CHECK(read.warning.empty());
+        CHECK(read.report.notes.empty());
         REQUIRE(read.layers.size() == picture.layers.size());
         for (size_t i = 0; i < read.layers.size(); ++i) {
           const DrawnLayer& wrote = picture.layers[i];
@@ -192,9 +192,9 @@ TEST_CASE("Groups pass on their names, opacity and visibility, and what is lost 
   CHECK(read.layers[2].clipped);
   CHECK(read.layers[2].opacity == 1);  // the opacity of its base applies to it, too
   CHECK(!read.layers[4].clipped);
-  for (const char* said :
-       {"head/fx: its blending mode, its effects", "tint: the whole layer", "hat: its clipping"})
-    CHECK_THAT(read.warning, Catch::Contains(said));
+  for (const char* said : {"head/fx: left out: its blending mode, its effects",
+                           "tint: left out: the whole layer", "hat: left out: its clipping"})
+    CHECK_THAT(read.report.text(), Catch::Contains(said));
 }
 
 TEST_CASE("What is clipped to a group or above a clipped group is not clipped to another layer") {
@@ -207,7 +207,7 @@ TEST_CASE("What is clipped to a group or above a clipped group is not clipped to
   const FileLayers read = layers_of_file(bytes, "a.psd");
   REQUIRE(read.layers.size() == 3);
   for (const FileLayer& layer : read.layers) CHECK(!layer.clipped);
-  CHECK_THAT(read.warning, Catch::Contains("B: its clipping"));
+  CHECK_THAT(read.report.text(), Catch::Contains("B: left out: its clipping"));
 }
 
 TEST_CASE("Layers with the same id in a PSD file, or that of a group, are told apart") {
@@ -243,10 +243,14 @@ TEST_CASE("The mask of a PSD layer cuts its pixels, unless it is disabled") {
   CHECK(alphas(2) == std::pair<std::uint8_t, std::uint8_t>(100, 100));
 }
 
-TEST_CASE("PSD files whose layers cannot be read say why") {
-  CHECK_THAT(layers_of_file(psd_of({{.name = "a"}}, 16), "a").warning, Catch::Contains("16 bits"));
-  CHECK_THAT(layers_of_file(psd_of({{.name = "a"}}, 8, 4), "a").warning,
-             Catch::Contains("neither RGB nor gray"));
+TEST_CASE("PSD files that cannot be read say why") {
+  CHECK_THAT(error_message_of([&] { layers_of_file(psd_of({{.name = "a"}}, 32), "a"); }),
+             Catch::Contains("32 bits"));
+  CHECK_THAT(error_message_of([&] { layers_of_file(psd_of({{.name = "a"}}, 8, 7), "a"); }),
+             Catch::Contains("color mode"));
+  std::string large = psd_of({{.name = "a"}});
+  large[5] = 2;
+  CHECK_THAT(error_message_of([&] { layers_of_file(large, "a"); }), Catch::Contains("PSB"));
   CHECK(layers_of_file(psd_of({}), "a").layers.empty());
   const PsdLayer divider{.name = "d", .blocks = section(3, "pass")},
       group{.name = "g", .blocks = section(1, "pass")};

@@ -307,7 +307,8 @@ TEST_CASE("A picture that ends too early anywhere gives an error that says so") 
   std::string rows = psd_file(Image(64, 48), true);
   rows.resize(26 + 12 + 2 + 2 * 4 * 48);
   std::fill(rows.begin() + 26 + 12 + 2, rows.end(), '\0');
-  CHECK_THAT(error_message_of([&] { decode_image(rows, "a.psd"); }), Catch::Contains("incomplete"));
+  CHECK_THAT(error_message_of([&] { decode_image(rows, "a.psd"); }),
+             Catch::Contains("wrong length"));
   // A picture of 65535 x 65535 on a canvas of 1 x 1.
   std::string gif = "GIF89a" + little(1, 2) + little(1, 2) +
                     std::string("\x80\0\0\0\0\0\0\0\0,", 10) + little(0, 4) + little(65535, 2) +

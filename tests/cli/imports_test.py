@@ -1,0 +1,241 @@
+# Pictures as other programs write them: the colors that are read, and what is said about the rest.
+import io
+import json
+import random
+import struct
+import sys
+import zipfile
+import zlib
+
+import numpy
+from PIL import Image
+from psd_tools import PSDImage
+
+from case import Case, seed_of, timed
+
+GRAY, INDEXED, RGB, CMYK, DUOTONE, LAB = 1, 2, 3, 4, 8, 9
+COLORS = {GRAY: 1, INDEXED: 1, RGB: 3, CMYK: 4, DUOTONE: 1, LAB: 3}
+NONE, RUNS, ZIP, ZIP_DIFFERENCES = range(4)
+
+
+def run_lengths(row):
+    """PackBits without any effort: runs of one byte, or literals."""
+    out, at = b"", 0
+    while at < len(row):
+        run = 1
+        while at + run < len(row) and run < 128 and row[at + run] == row[at]:
+            run += 1
+        out += bytes([257 - run, row[at]]) if run > 1 else bytes([0, row[at]])
+        at += run
+    return out
+
+
+def stored(plane, depth, packing):
+    """The compression and the bytes of a channel; of run lengths, the lengths apart from the rows."""
+    samples = plane.astype(">u2" if depth == 16 else "u1")
+    if packing == RUNS:
+        rows = [run_lengths(row.tobytes()) for row in samples]
+        return b"".join(struct.pack(">H", len(row)) for row in rows), b"".join(rows)
+    if packing == ZIP_DIFFERENCES:
+        before = numpy.concatenate([numpy.zeros_like(plane[:, :1]), plane[:, :-1]], axis=1)
+        samples = ((plane.astype(int) - before) % (1 << depth)).astype(samples.dtype)
+    data = samples.tobytes()
+    return b"", zlib.compress(data) if packing >= ZIP else data
+
+
+def block(key, data):
+    return b"8BIM" + key + struct.pack(">I", len(data)) + data + b"\0" * (-len(data) % 4)
+
+
+def layer_info(layers, depth, packing):
+    """`layers`: name, left, top, and the planes: the alpha, and then the colors."""
+    records, channels = b"", b""
+    for name, left, top, planes in layers:
+        height, width = planes[0].shape
+        records += struct.pack(">iiiiH", top, left, top + height, left + width, len(planes))
+        for number, plane in enumerate(planes):
+            data = struct.pack(">H", packing) + b"".join(stored(plane, depth, packing))
+            records += struct.pack(">hI", number - 1, len(data))
+            channels += data
+        pascal = bytes([len(name)]) + name.encode()
+        extra = struct.pack(">II", 0, 0) + pascal + b"\0" * (-len(pascal) % 4)
+        records += b"8BIMnorm" + struct.pack(">BBBBI", 255, 0, 0, 0, len(extra)) + extra
+    info = struct.pack(">h", len(layers)) + records + channels
+    return info + b"\0" * (len(info) % 2)
+
+
+def psd(width, height, mode, depth, packing, merged, layers=(), palette=b"", transparent=None):
+    resources = b"" if transparent is None else b"8BIM" + struct.pack(">HHIH", 1047, 0, 2, transparent)
+    section = b""
+    if layers:
+        info = layer_info(layers, depth, packing)
+        section = (struct.pack(">II", 0, 0) + block(b"Lr16", info) if depth == 16
+                   else struct.pack(">I", len(info)) + info + struct.pack(">I", 0))
+    parts = [stored(plane, depth, packing) for plane in merged]
+    data = b"".join(lengths for lengths, _ in parts) + b"".join(rows for _, rows in parts)
+    return (b"8BPS" + struct.pack(">H6xHIIHH", 1, len(merged), height, width, depth, mode) + struct.pack(">I", len(palette)) + palette
+            + struct.pack(">I", len(resources)) + resources + struct.pack(">I", len(section)) + section + struct.pack(">H", packing) + data)
+
+
+def srgb_of_lab(lab):
+    """CIELAB (D50) as 8-bit sRGB, by the formulas of CIE 15 and IEC 61966-2-1, adapted to D65 by the Bradford matrix."""
+    l, a, b = lab[0] * 100 / 255, lab[1] - 128.0, lab[2] - 128.0
+    fy = (l + 16) / 116
+    f = numpy.stack([fy + a / 500, fy, fy - b / 200])
+    xyz = numpy.where(f > 6 / 29, f ** 3, 3 * (6 / 29) ** 2 * (f - 4 / 29)) * numpy.array([0.9642, 1, 0.8249])[:, None, None]
+    linear = numpy.einsum("ij,jrc->irc", numpy.array([[3.1338561, -1.6168667, -0.4906146], [-0.9787684, 1.9161415, 0.0334540],
+                                                      [0.0719453, -0.2289914, 1.4052427]]), xyz).clip(0, 1)
+    return 255 * numpy.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+class Imports(Case):
+    def planes(self, rng, count, height, width, depth, calm=False):
+        """Smooth random planes; `calm` keeps Lab colors within sRGB."""
+        y, x = numpy.mgrid[0:height, 0:width]
+        most = (1 << depth) - 1
+        planes = []
+        for k in range(count):
+            value = 0.5 + 0.5 * numpy.sin(x * rng.uniform(-0.4, 0.4) + y * rng.uniform(-0.4, 0.4) + rng.uniform(0, 6))
+            if calm:
+                value = 0.3 + 0.4 * value if k == 0 else 0.47 + 0.06 * value
+            planes.append(numpy.rint(most * value).astype(int))
+        return planes
+
+    def seen(self, mode, depth, planes):
+        """The 8-bit sRGB of planes, as the specification says."""
+        eight = [(plane + 128) // 257 if depth == 16 else plane for plane in planes]
+        if mode in (GRAY, DUOTONE):
+            eight = [eight[0]] * 3
+        if mode == CMYK:
+            eight = [plane * eight[3] / 255 for plane in eight[:3]]
+        if mode == LAB:
+            eight = srgb_of_lab(eight)
+        return numpy.dstack(list(eight))
+
+    def opened(self, data, says=None):
+        """The picture that a file without a cage shows, and what was said when it was opened."""
+        with open(self.path("a.psd"), "wb") as file:
+            file.write(data)
+        said = self.good("new", self.path("a.psd"), "--out", self.path("a.json"), "--force").stderr
+        if says:
+            self.assertIn(says, said)
+        with open(self.path("a.json")) as file:
+            scene = json.load(file)
+        for layer in scene.get("layers", [scene]):
+            layer["cage"] = {"rest": []}
+        with open(self.path("a.json"), "w") as file:
+            json.dump(scene, file)
+        self.good("render", self.path("a.json"), "--out", self.path("a.png"), "--force")
+        return numpy.asarray(Image.open(self.path("a.png")).convert("RGBA")).astype(float), said
+
+    def test_flat_psd_files_have_their_colors(self):
+        for seed in (1, seed_of("flat PSD files", 2)):
+            rng = random.Random(seed)
+            for mode in (GRAY, RGB, CMYK, DUOTONE, LAB):
+                for depth in (8, 16):
+                    for packing in (NONE, RUNS):
+                        with self.subTest(seed=seed, mode=mode, depth=depth, packing=packing):
+                            planes = self.planes(rng, COLORS[mode], 20, 31, depth, mode == LAB)
+                            says = {CMYK: "CMYK", LAB: "Lab", DUOTONE: "duotone"}.get(mode, "16 bits" if depth == 16 else None)
+                            shown, _ = self.opened(psd(31, 20, mode, depth, packing, planes), says)
+                            self.assertEqual(shown[..., 3].min(), 255)
+                            self.assertLessEqual(numpy.abs(shown[..., :3] - self.seen(mode, depth, planes)).max(), 2 if mode == LAB else 1)
+
+    def test_indexed_and_bitmap_psd_files_have_their_colors(self):
+        palette = bytes(random.Random(3).randrange(256) for _ in range(768))
+        indices = numpy.random.RandomState(4).randint(0, 5, (9, 13))
+        shown, _ = self.opened(psd(13, 9, INDEXED, 8, RUNS, [indices], palette=palette, transparent=2))
+        for k in range(3):
+            expected = numpy.array([palette[256 * k + i] for i in range(5)])[indices]
+            self.assertEqual(numpy.abs(numpy.where(indices == 2, 0, shown[..., k] - expected)).max(), 0)
+        self.assertTrue(((shown[..., 3] == 0) == (indices == 2)).all())
+        ink = numpy.random.RandomState(5).randint(0, 2, (9, 13))
+        bits = numpy.packbits(ink, axis=1).tobytes()
+        shown, _ = self.opened(b"8BPS" + struct.pack(">H6xHIIHHIIIH", 1, 1, 9, 13, 1, 0, 0, 0, 0, 0) + bits)
+        self.assertTrue((shown[..., 0] == 255 * (1 - ink)).all())
+
+    def test_layers_of_all_kinds_are_read_as_psd_tools_reads_them(self):
+        for seed in (1, seed_of("layers of PSD files", 3)):
+            rng = random.Random(seed)
+            for mode in (GRAY, RGB, CMYK, LAB):
+                for depth in (8, 16):
+                    for packing in (NONE, RUNS, ZIP, ZIP_DIFFERENCES):
+                        with self.subTest(seed=seed, mode=mode, depth=depth, packing=packing):
+                            height, width, left, top = rng.randint(3, 30), rng.randint(3, 30), rng.randint(-9, 20), rng.randint(-9, 20)
+                            colors = self.planes(rng, COLORS[mode], height, width, depth, mode == LAB)
+                            alpha = numpy.full((height, width), (1 << depth) - 1)
+                            merged = self.planes(rng, COLORS[mode], 24, 32, depth)
+                            data = psd(32, 24, mode, depth, packing if packing < ZIP else NONE, merged,
+                                       [("paint", left, top, [alpha, *colors])])
+                            if packing >= ZIP:  # only layers are packed in this way
+                                data = psd(32, 24, mode, depth, packing, [], [("paint", left, top, [alpha, *colors])])
+                                data += b"".join(plane.astype(">u2" if depth == 16 else "u1").tobytes() for plane in merged)
+                                data = data[:12] + struct.pack(">H", len(merged)) + data[14:]
+                                at = len(data) - sum(plane.size for plane in merged) * depth // 8 - 2
+                                data = data[:at] + struct.pack(">H", NONE) + data[at + 2:]
+                            judge = PSDImage.open(io.BytesIO(data))[0].numpy("color")
+                            expected = numpy.dstack(colors) / ((1 << depth) - 1)
+                            self.assertLessEqual(numpy.abs(judge - expected).max(), 1e-6, "the test writes what psd-tools reads")
+                            shown, _ = self.opened(data)
+                            canvas = numpy.zeros((24, 32, 4))
+                            part = self.seen(mode, depth, colors)
+                            for r in range(max(0, top), min(24, top + height)):
+                                for c in range(max(0, left), min(32, left + width)):
+                                    canvas[r, c] = [*part[r - top, c - left], 255]
+                            self.assertEqual(shown.shape, canvas.shape)
+                            self.assertEqual(numpy.abs(shown[..., 3] - canvas[..., 3]).max(), 0)
+                            self.assertLessEqual(numpy.abs(shown - canvas).max(), 2 if mode == LAB else 1)
+
+    def test_of_too_many_layers_the_topmost_open(self):
+        shades = [[numpy.full((1, 1), 255)] + [numpy.full((1, 1), value)] * 3 for value in (10, 200)]
+        layers = [("low" if i < 20 else "top", 0, 0, shades[i >= 20]) for i in range(420)]
+        merged = [numpy.full((2, 2), 99)] * 3
+        shown, said = self.opened(psd(2, 2, RGB, 8, NONE, merged, layers), "the lowest 20 of its layers")
+        self.assertEqual(shown[0, 0].tolist(), [200, 200, 200, 255])
+        with open(self.path("a.json")) as file:
+            self.assertEqual({layer["name"] for layer in json.load(file)["layers"]}, {"top"})
+
+    def test_a_damaged_zip_channel_is_said(self):
+        planes = self.planes(random.Random(1), 4, 20, 20, 8)
+        data = bytearray(psd(20, 20, RGB, 8, ZIP, [], [("paint", 0, 0, planes)]) + bytes(1200))
+        for k in range(120):
+            data[300 + k] ^= 0x5a
+        with open(self.path("a.psd"), "wb") as file:
+            file.write(data)
+        self.bad("new", self.path("a.psd"), "--out", self.path("a.json"), "--force", says="damaged")
+
+    def test_only_the_first_of_many_pictures_is_opened_and_this_is_said(self):
+        frames = [Image.new("RGB", (20, 10), color) for color in ((250, 0, 0), (0, 250, 0), (0, 0, 250))]
+        for kind, word in (("gif", "pictures"), ("png", "pictures"), ("webp", "pictures"), ("tif", "pages")):
+            options = {"lossless": True} if kind == "webp" else {}
+            frames[0].save(self.path("a." + kind), save_all=True, append_images=frames[1:], **options)
+            said = self.good("new", self.path("a." + kind), "--out", self.path("a.json"), "--force").stderr
+            self.assertIn(f"a.{kind}: only the first of its 3 {word} is opened", said)
+            self.assertIn("of its 3", self.good("info", self.path("a.json")).stderr)
+            self.good("render", self.path("a.json"), "--out", self.path("a.out.png"), "--force")
+            color = Image.open(self.path("a.out.png")).convert("RGB").getpixel((10, 5))
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(color, (250, 0, 0))), 3, kind)
+            frames[0].save(self.path("b." + kind))
+            self.assertNotIn("first", self.good("new", self.path("b." + kind), "--out", self.path("b.json"), "--force").stderr)
+
+    def test_vector_layers_of_openraster_are_drawn_and_others_are_named(self):
+        picture = io.BytesIO()
+        Image.new("RGBA", (40, 30), (0, 0, 200, 255)).save(picture, "png")
+        stack = ('<image w="40" h="30"><stack><layer name="notes" src="data/notes.txt"/><text name="words"/>'
+                 '<layer name="ink" src="data/ink.svg" x="10" y="5"/><layer name="paper" src="data/paper.png"/></stack></image>')
+        with zipfile.ZipFile(self.path("a.ora"), "w") as archive:
+            archive.writestr("mimetype", "image/openraster")
+            archive.writestr("stack.xml", stack)
+            archive.writestr("mergedimage.png", picture.getvalue())
+            archive.writestr("data/paper.png", picture.getvalue())
+            archive.writestr("data/ink.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="12" height="8"><rect width="12" height="8" fill="#c00"/></svg>')
+        said = self.good("new", self.path("a.ora"), "--out", self.path("a.json")).stderr
+        self.assertIn("notes: left out: the whole layer", said)
+        self.assertIn("words: left out: the whole layer", said)
+        self.good("render", self.path("a.json"), "--out", self.path("a.png"))
+        shown = Image.open(self.path("a.png")).convert("RGB")
+        self.assertEqual([shown.getpixel(at) for at in ((16, 9), (2, 2), (30, 9))], [(204, 0, 0), (0, 0, 200), (0, 0, 200)])
+
+
+if __name__ == "__main__":
+    timed.main(sys.argv[3:])
