@@ -316,7 +316,10 @@ void Editor::use_tool(Input input) {
   }
   if (input.pressed && !workspace_.require_open_layer())
     input.pressed = input.double_clicked = input.inside = false;
-  if (input.pressed) workspace_.shown.timeline.keys.clear();  // so that Delete removes handles
+  if (input.pressed) {
+    workspace_.shown.timeline.keys.clear();     // so that Delete removes handles
+    workspace_.shown.timeline.playing = false;  // a drag starts at the pose of this moment
+  }
   current_tool().input(input, workspace_);
 }
 

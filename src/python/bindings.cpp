@@ -409,8 +409,10 @@ void add_pin(py::module_& module) {
 void add_proof(py::module_& module) {
   py::class_<Proof>(module, "Certificate", "What is proved about a map.")
       .def_property_readonly(
-          "proved", [](const Proof& proof) { return proof.extremes.has_value(); },
-          "Whether it is proved that the map folds nowhere and stays within the extremes.")
+          "proved",
+          [](const Proof& proof) { return proof.status == name_of(SampledMap::Status::certified); },
+          "Whether it is proved that the map folds nowhere and stays within the extremes, if there "
+          "are some.")
       .def_readonly("status", &Proof::status, "exact, iterating, certified or infeasible.")
       .def_readonly("note", &Proof::note, "Remarks of the method.")
       .def_property_readonly(

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/keyframes.h"
 #include "scene/layers.h"
 #include "scene/mirror.h"
 
@@ -25,6 +26,34 @@ Scene with_each_layer(Scene scene, const KeySelection& keys, Edit edit) {
     scene = with_layer_at(std::move(scene), i, std::move(changed));
   }
   return scene;
+}
+
+/// A keyframe in its new place.
+struct PlacedKey {
+  Keyframe key;
+  size_t from = 0;  ///< its index before
+  bool moved = false;
+};
+
+/// The whole turns since the key before. A moved key keeps them if it still follows the same key,
+/// and a copy if it follows a copy of that. A key that stays turns as often as before since the
+/// last other key that stays.
+int turns_of(const std::vector<PlacedKey>& placed, size_t i, const std::vector<Keyframe>& before,
+             bool copies) {
+  const PlacedKey& key = placed[i];
+  if (i == 0) return key.from == 0 ? key.key.turns : 0;
+  const PlacedKey& last = placed[i - 1];
+  const bool follows = last.from + 1 == key.from;
+  if (key.moved) return follows && (last.moved || !copies) ? key.key.turns : 0;
+  if (follows) return key.key.turns;
+  int turns = key.key.turns;
+  const auto is_left = [&](size_t k) {
+    return std::ranges::any_of(placed, [&](const PlacedKey& other) {
+      return other.from == k && (!other.moved || &other < &key);
+    });
+  };
+  for (size_t k = key.from; k-- > 0 && !is_left(k);) turns += before[k].turns;
+  return std::clamp(turns, -kMaxTurns, kMaxTurns);
 }
 
 }  // namespace
@@ -62,24 +91,28 @@ std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection&
   MovedKeys result;
   result.scene =
       with_each_layer(scene, keys, [&](Deformation deformation, const std::vector<size_t>& chosen) {
-        std::vector<Keyframe> moving;
+        const std::vector<Keyframe> before = deformation.keyframes;
+        std::vector<PlacedKey> placed;
+        for (size_t k = 0; k < before.size(); ++k)
+          if (how.copies || !std::ranges::binary_search(chosen, k))
+            placed.push_back({before[k], k, false});
         for (const size_t k : chosen) {
-          moving.push_back(deformation.keyframes[k]);
-          // Whole turns are made since the key before, which a copy may not have before it.
-          if (how.copies && (k == 0 || !std::ranges::binary_search(chosen, k - 1)))
-            moving.back().turns = 0;
+          PlacedKey key{before[k], k, true};
+          key.key.time = moved(key.key.time);
+          const auto next = std::ranges::upper_bound(
+              placed, key.key.time, {}, [](const PlacedKey& other) { return other.key.time; });
+          const auto meets = [&](const PlacedKey& other) {
+            return std::abs(other.key.time - key.key.time) < kSameTime;
+          };
+          possible = possible && key.key.time >= 0 && key.key.time <= kMaxTime &&
+                     std::ranges::none_of(placed, meets);
+          if (!possible) return deformation;
+          placed.insert(next, std::move(key));
         }
-        if (!how.copies)
-          for (size_t i = chosen.size(); i-- > 0;)
-            deformation = without_key(std::move(deformation), chosen[i]);
-        for (Keyframe& key : moving) {
-          key.time = moved(key.time);
-          possible = possible && key.time >= 0 && key.time <= kMaxTime &&
-                     key_at(deformation, key.time) == deformation.keyframes.size();
-          if (!possible) break;
-          const auto next =
-              std::ranges::upper_bound(deformation.keyframes, key.time, {}, &Keyframe::time);
-          deformation.keyframes.insert(next, key);
+        deformation.keyframes.clear();
+        for (size_t i = 0; i < placed.size(); ++i) {
+          deformation.keyframes.push_back(placed[i].key);
+          deformation.keyframes.back().turns = turns_of(placed, i, before, how.copies);
         }
         return deformation;
       });

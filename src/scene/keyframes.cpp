@@ -7,11 +7,6 @@
 #include "scene/clips.h"
 
 namespace holomorph {
-namespace {
-
-constexpr double kSameTime = 1e-3;
-
-}  // namespace
 
 size_t key_at(const Deformation& deformation, double time) {
   const auto found = std::ranges::find_if(deformation.keyframes, [&](const Keyframe& key) {

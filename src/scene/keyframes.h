@@ -6,7 +6,9 @@
 
 namespace holomorph {
 
-/// The index of the keyframe within a thousandth of a second of the given time; keyframes.size() if
+/// Keyframes that are closer than this, in seconds, have the same time.
+inline constexpr double kSameTime = 1e-3;
+/// The index of the keyframe with the given time; keyframes.size() if
 /// there is none.
 size_t key_at(const Deformation& deformation, double time);
 /// Sets the keyframe at a time to the deformation's pose. An existing keyframe keeps its ease. A

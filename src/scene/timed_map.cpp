@@ -149,7 +149,9 @@ std::unique_ptr<PointMap> TimedMap::point_map(const TimedFrame& frame) const {
 std::unique_ptr<TimedMap::Inverse> TimedMap::inverse(const TimedFrame& frame) const {
   std::unique_ptr<PointMap> map = point_map(frame);
   if (!map) return nullptr;
-  return std::make_unique<Inverse>(std::move(map), deformation_.rest, mesh(), on_mesh(frame).f);
+  return std::make_unique<Inverse>(std::move(map), deformation_.rest,
+                                   drawn_mesh(prepared_->mesh, frame.deformation),
+                                   on_mesh(frame).f);
 }
 
 }  // namespace holomorph

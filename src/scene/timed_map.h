@@ -66,13 +66,15 @@ class TimedMap {
       const TimedFrame& frame, double tolerance,
       const std::function<void()>& keep_going = [] {}) const;
 
-  /// A frame's map and its inverse.
+  /// A frame's map and its inverse, which knows the order in which triangles are drawn.
   struct Inverse {
     std::unique_ptr<PointMap> map;
+    std::shared_ptr<const Mesh> drawn;
     InverseMap inverse;
 
-    Inverse(std::unique_ptr<PointMap> of, const Cage& rest, const Mesh& mesh, const VectorXc& f)
-        : map(std::move(of)), inverse(rest, mesh, as_span(f), *map) {}
+    Inverse(std::unique_ptr<PointMap> of, const Cage& rest, std::shared_ptr<const Mesh> mesh,
+            const VectorXc& f)
+        : map(std::move(of)), drawn(std::move(mesh)), inverse(rest, *drawn, as_span(f), *map) {}
 
     /// The preimages of each point. Uses all cores. `progress` is called on this thread with the
     /// number of points that have been searched for; an exception in it ends the work.

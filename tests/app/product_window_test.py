@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -11,7 +12,7 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import SOURCE, Editor, WindowCase, real, real_in_soak, load, run_tests  # noqa: E402
+from case import PROGRAM, SOURCE, Editor, WindowCase, real, real_in_soak, load, run_tests  # noqa: E402
 
 BODY, LEG, HEAD = (600, 410), (800, 668), (250, 270)  # on the gecko
 
@@ -193,6 +194,33 @@ class ProductWindowTest(WindowCase):
             editor.wait(lambda s: s["selected_keys"] == 1, "one selected key")
             drag(at(0.5, 0), at(1.25, 0), ["ctrl"])
             self.assertEqual(times("copied.json"), [[0, 0.5, 2], [0, 0.5, 1.25, 2]])
+
+    def test_a_press_while_the_scene_plays_keeps_the_time_of_that_moment(self):
+        """With auto-key, the new key has the other pins where they are at its time."""
+        path = os.path.join(self.work, "rising.json")
+        pins = [[60, 50], [540, 50]]
+        with open(path, "w") as file:
+            json.dump({"format": "holomorph", "version": 1, "cage": {"rest": [[[0, 0]], [[600, 0]], [[600, 100]], [[0, 100]]]},
+                       "method": {"id": "puppet"}, "pins": [{"rest": pin} for pin in pins],
+                       "keyframes": [{"time": time, "ease": "linear", "pose": {"pins": [{"pose": [60, 50 + 60 * time]}, {"pose": pins[1]}]}}
+                                     for time in (0, 5)]}, file)
+        for hold in (0, 0.15, 0.6):
+            with Editor([path]) as editor:
+                editor.wait(lambda s: s["keys"] == 2, "the keys")
+                editor.key("k")
+                editor.move(*pins[1])
+                x, y = editor.pixel(*pins[1])
+                editor.key("space")
+                editor.wait(lambda s: s["time"] > 0.7, "playback")
+                editor.xdotool("mousedown", 1, pause=hold)
+                for k in range(1, 6):
+                    editor.xdotool("mousemove", x, y - 8 * k, pause=0.03)
+                editor.xdotool("mouseup", 1)
+                editor.wait(lambda s: s["keys"] == 3 and not s["gesture"], "a new key")
+                key = self.saved(editor, f"pressed-{hold}.json")["keyframes"][1]
+            there = subprocess.run([PROGRAM, "map", path, "--points", "-", "--time", str(key["time"])], input="60,50\n", text=True,
+                                   check=True, capture_output=True).stdout.splitlines()[-1].split(",")
+            self.assertAlmostEqual(key["pose"]["pins"][0]["pose"][1], float(there[1]), delta=0.01)
 
     @real_in_soak
     def test_a_hat_follows_the_pin_that_was_clicked(self):

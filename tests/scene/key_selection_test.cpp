@@ -149,6 +149,27 @@ TEST_CASE("keys: whole turns between mirrored keys go the other way") {
   CHECK(both[4].turns == 2);
 }
 
+TEST_CASE("keys: turns are those between the same keys wherever keys are put") {
+  Scene scene = keyed_scene({{0, 1, 2, 3}});
+  Layer layer = scene.layer();
+  for (const size_t k : {1, 2, 3}) layer.deformation.keyframes[k].turns = static_cast<int>(k);
+  scene = with_layer(scene, layer);
+  const auto turns_of = [&](const KeySelection& keys, const TimeMap& map, KeyMove how = {}) {
+    const Scene moved = with_keys_moved(scene, keys, map, how)->scene;
+    std::vector<int> turns;
+    for (const Keyframe& key : moved.deformation().keyframes) turns.push_back(key.turns);
+    return turns;
+  };
+  using Turns = std::vector<int>;
+  CHECK(turns_of({{1, 1}}, {1, 0, 0.5}) == Turns{0, 1, 2, 3});
+  CHECK(turns_of({{1, 1}}, {1, 0, 1.5}) == Turns{0, 3, 0, 3});
+  CHECK(turns_of({{1, 1}, {1, 2}}, {1, 0, 5}) == Turns{0, 6, 0, 2});
+  CHECK(turns_of({{1, 0}}, {1, 0, 1.5}) == Turns{0, 0, 2, 3});
+  // Copies between the originals make no turns of their own.
+  CHECK(turns_of({{1, 0}, {1, 1}, {1, 2}, {1, 3}}, {1, 0, 0.25}, {.copies = true}) ==
+        Turns{0, 0, 1, 0, 2, 0, 3, 0});
+}
+
 TEST_CASE("keys: those of locked and hidden layers cannot be chosen") {
   Scene scene = keyed_scene({{0, 1}, {1}});
   Layer second = *scene.layers[1];

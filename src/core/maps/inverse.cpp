@@ -173,6 +173,16 @@ bool InverseMap::is_inside(Complex z) const {
 
 std::vector<Preimage> InverseMap::at(Complex w) const {
   if (!is_finite(w)) return {};
+  std::vector<Preimage> found = find(w);
+  if (found.size() < 2) return found;
+  for (Preimage& preimage : found)
+    if (preimage.triangle < 0) preimage.triangle = locate_near(mesh_, preimage.z).triangle;
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Preimage::triangle);
+  return found;
+}
+
+/// All preimages, in any order. Those that were found from a vertex have no triangle.
+std::vector<Preimage> InverseMap::find(Complex w) const {
   const std::optional<int> wanted = winding(w);
   std::vector<Preimage> found = newton_from_grid(w, wanted);
   if (!wanted || oriented(found) == *wanted) return found;
@@ -270,7 +280,6 @@ std::vector<Preimage> InverseMap::search_triangles(Complex w, int wanted) const 
     if (count && *count != 0) search_region(region, *count, w, 0, found);
     for (size_t i = before; i < found.size(); ++i) found[i].triangle = t;
   }
-  std::ranges::stable_sort(found, std::ranges::greater{}, &Preimage::triangle);
   return found;
 }
 

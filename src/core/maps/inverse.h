@@ -19,14 +19,15 @@ namespace holomorph {
 struct Preimage {
   Complex z;
   double residual = 0;
-  int triangle = -1;    ///< triangle index in the mesh; larger indices are drawn on top
+  int triangle = -1;    ///< in or near which it is; later triangles of the mesh are drawn on top
   int orientation = 1;  ///< -1 where the map reverses orientation
 };
 
 class InverseMap {
  public:
-  /// `positions` are the values of the map at the mesh's vertices. The mesh and the map must
-  /// outlive this object. Cost: linear in the number of triangles.
+  /// `positions` are the values of the map at the mesh's vertices. The triangles are in the order
+  /// in which they are drawn. The mesh and the map must outlive this object. Cost: linear in the
+  /// number of triangles.
   InverseMap(const Cage& rest, const Mesh& mesh, std::span<const Complex> positions,
              const PointMap& map);
   InverseMap(const InverseMap&) = delete;  // its members refer to each other
@@ -64,6 +65,7 @@ class InverseMap {
   bool is_in_inner_triangle(const Preimage& preimage) const;
   void add(Complex w, Complex start, int triangle, std::vector<Preimage>& found) const;
   Complex pulled_inside(Complex start, int triangle) const;
+  std::vector<Preimage> find(Complex w) const;
   std::vector<Preimage> newton_from_grid(Complex w, std::optional<int> wanted) const;
   std::vector<Preimage> search_triangles(Complex w, int wanted) const;
   Arc side(int from, int to) const;
