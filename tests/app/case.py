@@ -46,8 +46,16 @@ def real_in_soak(test):
     return real(soak(test))
 
 
+def recorded_only(test):
+    """Marks a story that sends events between two frames, as only the recorded screen can."""
+    test.is_recorded_only = True
+    return test
+
+
 class WindowCase(unittest.TestCase):
     def setUp(self):
+        if REAL and hasattr(getattr(self, self._testMethodName), "is_recorded_only"):
+            self.skipTest("needs a recorded screen")
         needs_window = hasattr(getattr(self, self._testMethodName), "needs_window")
         if needs_window != REAL and not (REAL and ALL):
             self.skipTest("runs in a real window" if needs_window else "runs on a recorded screen")

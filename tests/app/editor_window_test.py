@@ -13,7 +13,7 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(__file__))
-from case import PROGRAM, SOURCE, Editor, WindowCase, real, real_in_soak, load, old_sample, few_or_many, run_tests, seed_of  # noqa: E402
+from case import PROGRAM, SOURCE, Editor, WindowCase, real, recorded_only, real_in_soak, load, old_sample, few_or_many, run_tests, seed_of  # noqa: E402
 
 RED, BLUE, GREEN = (220, 30, 30), (30, 60, 220), (20, 160, 60)
 
@@ -656,6 +656,7 @@ class EditorWindowTest(WindowCase):
         os.replace(saved, scene)
         return load(scene)["pins"]
 
+    @recorded_only
     def test_quick_clicks_and_drags_end_like_slow_ones(self):
         def slowly(editor, gestures):
             for events in gestures:
@@ -679,6 +680,7 @@ class EditorWindowTest(WindowCase):
                 self.assertLess(math.dist(a["rest"], b["rest"]), 0.5, (case, slow, quick))
                 self.assertLess(math.dist(a["pose"], b["pose"]), 0.5, (case, slow, quick))
 
+    @recorded_only
     def test_escape_discards_the_clicks_that_wait_for_the_cage(self):
         with Image.open(self.picture) as picture:
             picture.resize((4400, 3600)).save(self.picture)  # a cage that takes a while
@@ -692,6 +694,7 @@ class EditorWindowTest(WindowCase):
             editor.send(*click)
             editor.wait(lambda s: s["pins"] == 1 and not s["gesture"], "a pin, with the button up")
 
+    @recorded_only
     def test_the_window_survives_extreme_poses(self):
         """Handles far beyond what floats of the graphics library hold, with each method and tool."""
         rng = random.Random(seed_of("extreme poses"))
