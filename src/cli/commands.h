@@ -84,6 +84,7 @@ struct ExportCommand : SceneCommand {
   std::optional<int> overscan = {};     ///< of ST-maps, in their pixels
   bool half = false;                    ///< half floats in OpenEXR files
   std::optional<size_t> vertices = {};  ///< of the mesh of each layer
+  bool full_mesh = false;               ///< all vertices
   std::optional<double> rate = {};      ///< frames of moving meshes per second
   bool keys = false;                    ///< frames of moving meshes only at keyframes
   bool sound = false;                   ///< of films that are pictures

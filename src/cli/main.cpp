@@ -282,13 +282,19 @@ void CommandLine::add_export(CLI::App& app) {
       "--half", exported.half,
       "Write half floats instead of single ones, for OpenEXR files; precise to half a pixel "
       "in a picture 2000 pixels wide");
-  sub->add_option("--vertices", exported.vertices,
-                  "Vertices of the mesh of each layer, by default all of them; for meshes")
-      ->check(CLI::Range(3, 1'000'000));
+  auto* vertices =
+      sub->add_option("--vertices", exported.vertices,
+                      "Vertices of the mesh of each layer, by default the fewest that do not "
+                      "visibly differ, or all of them for mdd, pc2 and obj; for meshes")
+          ->check(CLI::Range(3, 1'000'000));
+  sub->add_flag("--full-mesh", exported.full_mesh,
+                "All vertices of the mesh of each layer; for meshes")
+      ->excludes(vertices);
   auto* rate =
       sub->add_option("--rate", exported.rate,
-                      "Frames per second of moving meshes, by default the scene's; players "
-                      "interpolate between them; for glb, godot and spine")
+                      "Frames per second of moving meshes, by default the fewest frames with "
+                      "which the motion does not visibly differ; players interpolate between "
+                      "them; for glb, godot and spine")
           ->check(CLI::Range(0.1, 1000.0));
   sub->add_flag("--keys", exported.keys,
                 "Frames of moving meshes only at keyframes; for glb, godot and spine")

@@ -13,8 +13,8 @@ namespace holomorph {
 namespace {
 
 MeshExport wanted_by(const ExportCommand& command, const Scene& scene) {
-  MeshExport wanted{command.format, command.out, command.vertices, command.moments.time, {},
-                    command.rate,   command.keys};
+  MeshExport wanted{command.format, command.out,  command.vertices, command.moments.time, {},
+                    command.rate,   command.keys, command.full_mesh};
   if (command.moments.frames) {
     const FrameRange range = frames_named(*command.moments.frames, scene);
     wanted.frames = std::pair(range.first, range.last);
@@ -54,11 +54,9 @@ void export_meshes(const LoadedScene& loaded, const ExportCommand& command) {
       std::fprintf(stderr, "holomorph: %s\n", printable(loss).c_str());
   size_t bytes = 0;
   for (const auto& [path, content] : files) bytes += content.size();
-  const std::optional<double> rate = sufficient_rate(moving);
-  std::fprintf(
-      stderr, "%s: %s, %zu bytes%s%s\n", shown_output(files[0].first).c_str(),
-      mesh_counts(moving).c_str(), bytes, mesh_error_text(moving).c_str(),
-      rate ? csv_line("; with --rate %.0f, less than %.2g px", *rate, kVisibleError).c_str() : "");
+  std::fprintf(stderr, "%s: %s, %zu bytes%s%s\n", shown_output(files[0].first).c_str(),
+               mesh_counts(moving).c_str(), bytes, mesh_error_text(moving).c_str(),
+               mesh_advice(moving, wanted).c_str());
 }
 
 }  // namespace holomorph

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "film/film_writer.h"
+#include "raster/fewest_frames.h"
 #include "scene/budget.h"
 #include "scene/formats/surface_file.h"
 #include "scene/keyframes.h"
@@ -68,22 +69,52 @@ MeshFiles obj_files(const MovingMeshes& moving, const Path& out, int first) {
   return files;
 }
 
-/// The times of all keyframes between two times, and these two.
+/// The times of all keyframes between two times, the ends of poses that are held, and these two.
 std::vector<double> key_times(const Scene& scene, double from, double to) {
   std::vector<double> times{from, to};
-  for (const SharedLayer& layer : scene.layers)
-    for (const Keyframe& key : layer->deformation.keyframes)
-      if (from < key.time && key.time < to) times.push_back(key.time);
+  const auto add = [&](double time) {
+    if (from < time && time < to) times.push_back(time);
+  };
+  for (const SharedLayer& layer : scene.layers) {
+    const std::vector<Keyframe>& keys = layer->deformation.keyframes;
+    for (size_t k = 0; k < keys.size(); ++k) {
+      add(keys[k].time);
+      if (keys[k].ease == Ease::hold && k + 1 < keys.size()) add(keys[k + 1].time - 0.5 * kJump);
+    }
+  }
   return times;
+}
+
+void sort_times(std::vector<double>& times) {
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+}
+
+/// Where the error between the given times is measured: at the frames and keyframes, and in the
+/// middle between all of these, except in jumps.
+std::vector<double> checked_times(std::vector<double> times, const std::vector<double>& frames,
+                                  const std::vector<double>& keys) {
+  std::vector<double> checked = frames;
+  checked.insert(checked.end(), keys.begin(), keys.end());
+  times.insert(times.end(), checked.begin(), checked.end());
+  sort_times(times);
+  for (size_t i = 0; i + 1 < times.size(); ++i)
+    if (times[i + 1] - times[i] > kJump) checked.push_back(0.5 * (times[i] + times[i + 1]));
+  sort_times(checked);
+  return checked;
 }
 
 }  // namespace
 
 MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted) {
   const ExportFormat& format = export_format_named(wanted.format);
+  // The number of vertices falls with the error, that of frames with its square root.
+  constexpr double kOfVertices = kVisibleError * 2 / 3, kOfFrames = kVisibleError - kOfVertices;
   MovingMeshOptions options;
   options.vertices = wanted.vertices;
   options.edited_only = !format.all_layers;
+  if (format.all_layers && !wanted.vertices && !wanted.full_mesh)
+    options.vertex_tolerance = kOfVertices;
   if (wanted.time) options.times = {*wanted.time};
   if (wanted.time || (!wanted.frames && !moves(scene))) {
     if (wanted.rate || wanted.keys)
@@ -97,8 +128,9 @@ MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted) 
   check_budget(&Budget::frames, last - first + 1.0, "the export has");
   std::vector<double> frames;
   for (int i = first; i <= last; ++i) frames.push_back(i / rate);
+  const std::vector<double> keys = key_times(scene, frames.front(), frames.back());
   if (wanted.keys) {
-    options.times = key_times(scene, frames.front(), frames.back());
+    options.times = keys;
   } else if (wanted.rate) {
     const double length = frames.back() - frames.front();
     check_budget(&Budget::frames, length * *wanted.rate, "the export has");
@@ -107,14 +139,14 @@ MovingMeshOptions mesh_options_of(const Scene& scene, const MeshExport& wanted) 
     options.times.push_back(frames.back());
   } else {
     options.times = frames;
+    if (format.all_layers) {
+      options.times.insert(options.times.end(), keys.begin(), keys.end());
+      options.frame_tolerance = kOfFrames;
+    }
   }
-  std::ranges::sort(options.times);
-  options.times.erase(std::unique(options.times.begin(), options.times.end()), options.times.end());
+  sort_times(options.times);
   check_budget(&Budget::frames, static_cast<double>(options.times.size()), "the export has");
-  if (!format.all_layers) return options;
-  options.checked = frames;
-  for (size_t i = 0; i + 1 < options.times.size(); ++i)
-    options.checked.push_back(0.5 * (options.times[i] + options.times[i + 1]));
+  if (format.all_layers) options.checked = checked_times(options.times, frames, keys);
   return options;
 }
 
@@ -158,17 +190,15 @@ std::vector<Path> mesh_file_names(const Scene& scene, const Pictures& pictures,
   return names;
 }
 
-std::optional<double> sufficient_rate(const MovingMeshes& moving) {
-  if (moving.times.size() < 2 || moving.error <= kVisibleError ||
-      moving.frame_error >= kVisibleError)
-    return {};
-  // Between frames, the error of linear interpolation falls with the square of the rate.
-  double longest = 0;
-  for (size_t i = 0; i + 1 < moving.times.size(); ++i)
-    longest = std::max(longest, moving.times[i + 1] - moving.times[i]);
-  const double finer =
-      std::sqrt((moving.error - moving.frame_error) / (kVisibleError - moving.frame_error));
-  return std::ceil(1.1 * finer / longest);
+std::string mesh_advice(const MovingMeshes& moving, const MeshExport& wanted) {
+  constexpr size_t kManyTargets = 256;
+  std::string text;
+  if (moving.error > kVisibleError && (wanted.rate || wanted.keys))
+    text += "; without a rate, frames are chosen that are closer";
+  if (wanted.format == "glb" && moving.times.size() > kManyTargets)
+    text +=
+        "; some programs do not load more than " + std::to_string(kManyTargets) + " morph targets";
+  return text;
 }
 
 std::string mesh_counts(const MovingMeshes& moving) {

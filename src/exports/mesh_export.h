@@ -11,13 +11,17 @@ namespace holomorph {
 struct MeshExport {
   std::string format;  ///< its id
   Path out;
-  std::optional<size_t> vertices = {};  ///< of each layer; by default those of its own mesh
-  std::optional<double> time = {};      ///< a single moment in seconds
+  /// Of each layer; by default the fewest that do not differ visibly, if the format has all layers.
+  std::optional<size_t> vertices = {};
+  std::optional<double> time = {};  ///< a single moment in seconds
   /// The first and the last frame. If neither this nor the time is set: all frames or, if nothing
   /// moves, the scene's own pose.
   std::optional<std::pair<int, int>> frames = {};
-  std::optional<double> rate = {};  ///< frames per second, instead of the scene's
-  bool keys = false;                ///< only at keyframes
+  /// Frames per second; by default the fewest that do not differ visibly, if the format has all
+  /// layers, and otherwise those of the scene.
+  std::optional<double> rate = {};
+  bool keys = false;       ///< only at keyframes
+  bool full_mesh = false;  ///< all vertices of each layer's own mesh
 
   bool operator==(const MeshExport&) const = default;
 };
@@ -33,11 +37,10 @@ MeshFiles mesh_files_of(const MovingMeshes& moving, const MeshExport& wanted);
 std::vector<Path> mesh_file_names(const Scene& scene, const Pictures& pictures,
                                   const MeshExport& wanted);
 
-/// The error above which a motion visibly differs, in pixels.
-inline constexpr double kVisibleError = 0.5;
-/// The rate of frames with which the error between frames is not visible. None if it is not visible
-/// anyway, or if it is visible at the frames, too.
-std::optional<double> sufficient_rate(const MovingMeshes& moving);
+/// The error up to which a motion does not visibly differ, in pixels.
+inline constexpr double kVisibleError = 0.25;
+/// What is said about meshes that are visibly off, or that some programs do not load; or "".
+std::string mesh_advice(const MovingMeshes& moving, const MeshExport& wanted);
 /// Such as "3 meshes, 1200 vertices, 49 frames".
 std::string mesh_counts(const MovingMeshes& moving);
 /// Such as ", at most 0.2 px off at the frames"; empty if they are exact.

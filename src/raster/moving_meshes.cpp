@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/mesh/coarser.h"
 #include "raster/bleed.h"
+#include "raster/fewest_frames.h"
 #include "scene/attachments.h"
 #include "scene/fringe.h"
 #include "scene/keyframes.h"
@@ -32,12 +33,13 @@ class LayerMesh {
     rest_ = map_->mesh().vertices;
     std::shared_ptr<const Mesh> drawn = map_->prepared().mesh;
     for (size_t v = 0; v < rest_.size(); ++v) kept_.push_back(static_cast<int>(v));
-    if (options.vertices && *options.vertices < rest_.size()) {
-      CoarserMesh coarser = coarser_mesh(*drawn, *options.vertices);
-      kept_ = coarser.kept;
-      locations_ = std::move(coarser.locations);
-      drawn = std::make_shared<const Mesh>(std::move(coarser.mesh));
-      coarse_ = drawn;
+    if (options.vertices && *options.vertices < rest_.size())
+      coarser_ = coarser_mesh(*drawn, *options.vertices, some_poses(options));
+    else if (options.vertex_tolerance)
+      coarser_ = coarsest_mesh(*drawn, some_poses(options), *options.vertex_tolerance);
+    if (coarser_) {
+      kept_ = coarser_->kept;
+      drawn = std::make_shared<const Mesh>(coarser_->mesh);
     }
     if (!options.edited_only) drawn = drawn_mesh(drawn, layer.deformation);
     triangles_ = drawn->triangles;
@@ -95,13 +97,25 @@ class LayerMesh {
     const std::span<const Complex> kept(exported.data(), kept_.size());
     double farthest = 0;
     for (size_t v = 0; v < all.size(); ++v) {
-      const Complex there = coarse_ ? locations_[v].in(*coarse_, kept) : kept[v];
+      const Complex there = coarser_ ? coarser_->locations[v].in(coarser_->mesh, kept) : kept[v];
       farthest = std::max(farthest, std::abs(there - all[v]));
     }
     return farthest;
   }
 
  private:
+  /// The positions at about 24 of the times, or in the scene's own pose.
+  std::vector<Points> some_poses(const MovingMeshOptions& options) {
+    if (options.times.empty()) return {positions({})};
+    constexpr size_t kSome = 24;
+    std::vector<Points> poses;
+    const size_t step = 1 + options.times.size() / kSome;
+    for (size_t i = 0; i < options.times.size(); i += step)
+      poses.push_back(positions(options.times[i]));
+    poses.push_back(positions(options.times.back()));
+    return poses;
+  }
+
   /// The rectangle of a picture without a cage.
   void set_plain(const Image* picture) {
     if (!picture) return;
@@ -115,8 +129,7 @@ class LayerMesh {
   std::unique_ptr<TimedMap> map_;  ///< null without a cage
   Points rest_;
   std::vector<int> kept_;               ///< the exported vertices of the layer's own mesh
-  std::shared_ptr<const Mesh> coarse_;  ///< null if all are exported
-  std::vector<Location> locations_;     ///< of the layer's own vertices in the coarse mesh
+  std::optional<CoarserMesh> coarser_;  ///< none if all are exported
   std::vector<Triangle> triangles_;
   std::shared_ptr<const Fringe> fringe_;
   std::optional<std::pair<Time, Points>> known_;  ///< the last positions
@@ -157,14 +170,22 @@ class Exporter {
       throw Error(ErrorKind::bad_input, "there is nothing to export: no visible layer has a mesh");
   }
 
-  void add_frame(const Time& time) {
+  /// The positions of all meshes at a time.
+  std::vector<Points> positions(const Time& time) {
+    std::vector<Points> all;
+    for (const size_t i : exported_) {
+      all.push_back(layer(i).exported(time));
+      const Similarity placed = placement(i, time);
+      for (Complex& z : all.back()) z = placed(z);
+    }
+    return all;
+  }
+
+  void add_frame(const Time& time, std::vector<Points> positions) {
     for (size_t k = 0; k < meshes_.size(); ++k) {
       const size_t i = exported_[k];
-      Points points = layer(i).exported(time);
-      frame_error_ = std::max(frame_error_, error(i, time, points));
-      const Similarity placed = placement(i, time);
-      for (Complex& z : points) z = placed(z);
-      meshes_[k].frames.push_back(std::move(points));
+      frame_error_ = std::max(frame_error_, error(i, time, layer(i).exported(time)));
+      meshes_[k].frames.push_back(std::move(positions[k]));
     }
   }
 
@@ -234,18 +255,31 @@ MovingMeshes moving_meshes_of(const Scene& scene, const Image* picture, const Pi
   if (!options.times.empty() && has_keyframes(scene) && !has_playing_keys(scene))
     throw no_key_plays();
   Exporter exporter(scene, picture, others, options);
-  const size_t all = std::max<size_t>(1, options.times.size()) + options.checked.size();
+  std::vector<double> times = options.times;
+  if (times.empty()) {
+    exporter.add_frame({}, exporter.positions({}));
+    return std::move(exporter).result({0});
+  }
+  const bool chooses = options.frame_tolerance.has_value();
+  const size_t all = (chooses ? 2 : 1) * times.size() + options.checked.size();
   size_t done = 0;
-  if (options.times.empty()) exporter.add_frame({});
-  for (const double time : options.times) {
-    step(done++, all);
-    exporter.add_frame(time);
+  const auto positions_at = [&](double time) {
+    step(std::min(done++, all), all);
+    return exporter.positions(time);
+  };
+  if (chooses) {
+    Frames frames = fewest_frames(times, *options.frame_tolerance, positions_at);
+    times = std::move(frames.times);
+    for (size_t i = 0; i < times.size(); ++i)
+      exporter.add_frame(times[i], std::move(frames.positions[i]));
+  } else {
+    for (const double time : times) exporter.add_frame(time, positions_at(time));
   }
   for (const double time : options.checked) {
-    step(done++, all);
-    exporter.check(time, options.times);
+    step(std::min(done++, all), all);
+    exporter.check(time, times);
   }
-  return std::move(exporter).result(options.times.empty() ? std::vector<double>{0} : options.times);
+  return std::move(exporter).result(std::move(times));
 }
 
 }  // namespace holomorph

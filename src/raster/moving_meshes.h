@@ -10,9 +10,15 @@
 namespace holomorph {
 
 struct MovingMeshOptions {
-  std::vector<double> times = {};       ///< seconds, increasing; empty: the scene's own pose
-  std::vector<double> checked = {};     ///< more times at which the error is measured
+  std::vector<double> times = {};    ///< seconds, increasing; empty: the scene's own pose
+  std::vector<double> checked = {};  ///< more times at which the error is measured
+  /// Chooses the fewest frames with which the motion is as close as this, in pixels, at these times
+  /// and between them; see fewest_frames().
+  std::optional<double> frame_tolerance = {};
   std::optional<size_t> vertices = {};  ///< of each layer; by default those of its own mesh
+  /// Chooses the fewest vertices with which the meshes are as close as this, in pixels, at some of
+  /// the times.
+  std::optional<double> vertex_tolerance = {};
   /// Only the edited layer, in its own plane, with the order of triangles and vertices of its mesh,
   /// and without the faint surroundings of a cut-out.
   bool edited_only = false;

@@ -262,6 +262,7 @@ class EditorWindowTest(WindowCase):
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "window/small.glb"))
+            editor.press_item("Fewest vertices")
             editor.press_item("Full mesh")
             self.type_into(editor, "Per layer", "120")
             editor.pause(3)
@@ -294,7 +295,7 @@ class EditorWindowTest(WindowCase):
             self.ask(editor, "ctrl+e")
             editor.key("ctrl+a")
             editor.type(os.path.join(self.work, "window/bent.TSCN"))  # names may be in capitals
-            editor.press_item("Full mesh")  # settings stay from one export to the next
+            editor.press_item("Fewest vertices")  # settings stay from one export to the next
             editor.key("Return")
             editor.item("Replace")
             self.screenshot(editor, "export-replace-texture")

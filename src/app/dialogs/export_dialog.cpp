@@ -443,10 +443,22 @@ void ExportDialog::draw_frames() {
 
 void ExportDialog::draw_meshes() {
   const Scene& scene = workspace_.document.scene();
-  bool own = !settings_.vertices;
+  const std::string format = mesh_export_of(settings_, scene).format;
+  const bool all_layers = export_format_named(format).all_layers;
+  bool own = all_layers ? settings_.full_mesh : !settings_.vertices;
+  bool fewest = !settings_.vertices && !settings_.full_mesh;
   row_label("Vertices");
-  if (check_box("Full mesh", own))
+  if (all_layers) {
+    if (check_box("Fewest vertices", fewest)) {
+      settings_.full_mesh = !fewest;
+      settings_.vertices.reset();
+    }
+    ImGui::SameLine(0, px(16));
+  }
+  if (check_box("Full mesh", own)) {
+    settings_.full_mesh = own && all_layers;
     settings_.vertices = own ? std::nullopt : std::optional<size_t>(500);
+  }
   if (settings_.vertices) {
     double vertices = static_cast<double>(*settings_.vertices);
     if (slider_row("Per layer", vertices, {.low = 30, .high = 5000, .logarithmic = true}))
@@ -454,12 +466,16 @@ void ExportDialog::draw_meshes() {
   }
   if (!moves(scene)) return;
   draw_frames();
-  const std::string format = mesh_export_of(settings_, scene).format;
-  if (!export_format_named(format).all_layers) return;
+  if (!all_layers) return;
   const double usual = scene.animation.frames_per_second;
-  double rate = settings_.rate.value_or(usual);
-  if (slider_row("Rate", rate, {.low = 1, .high = 120, .unit = "/s", .neutral = usual}))
-    settings_.rate = std::round(rate) == usual ? std::nullopt : std::optional(std::round(rate));
+  row_label("Rate");
+  bool chosen = !settings_.rate;
+  if (check_box("Fewest frames", chosen))
+    settings_.rate = chosen ? std::nullopt : std::optional(usual);
+  if (!settings_.rate) return;
+  double rate = *settings_.rate;
+  if (slider_row("Per second", rate, {.low = 1, .high = 120, .unit = "/s", .neutral = usual}))
+    settings_.rate = std::round(rate);
 }
 
 void ExportDialog::draw_st_map() {

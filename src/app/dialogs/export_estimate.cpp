@@ -35,14 +35,7 @@ std::string measured(const ExportEstimate::Question& question, const Pictures& p
                          mesh_options_of(scene, *question.meshes), [&](size_t, size_t) {
                            if (progress.cancelled()) throw Canceled{};
                          });
-    std::string text = mesh_counts(moving) + mesh_error_text(moving);
-    if (const std::optional<double> rate = sufficient_rate(moving)) {
-      char more[80];
-      std::snprintf(more, sizeof more, "; with %.0f frames per second, less than %.2g px", *rate,
-                    kVisibleError);
-      text += more;
-    }
-    return text;
+    return mesh_counts(moving) + mesh_error_text(moving) + mesh_advice(moving, *question.meshes);
   } catch (const Error& error) {
     return error.what();
   } catch (Canceled) {

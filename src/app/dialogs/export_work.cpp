@@ -131,6 +131,7 @@ MeshExport mesh_export_of(const ExportSettings& settings, const Scene& scene) {
     if (format.meshes && format.extensions[0] == extension) wanted.format = format.id;
   wanted.out = settings.path;
   wanted.vertices = settings.vertices;
+  wanted.full_mesh = settings.full_mesh;
   if (!moves(scene)) return wanted;
   wanted.frames = std::pair(settings.first, settings.last);
   if (!wanted.format.empty() && export_format_named(wanted.format).all_layers)

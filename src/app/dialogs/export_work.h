@@ -22,8 +22,9 @@ struct ExportSettings {
   bool loops = true;
   bool keeps_sound = true;  ///< if the format can have sound, and there is any
   bool crops_to_filled = false;
-  std::optional<size_t> vertices;  ///< of each layer's mesh; none: its own
-  std::optional<double> rate;      ///< frames of meshes per second; none: the scene's
+  std::optional<size_t> vertices;  ///< of each layer's mesh; none: the fewest
+  bool full_mesh = false;          ///< instead of `vertices`: all
+  std::optional<double> rate;      ///< frames of meshes per second; none: the fewest
   int overscan = 0;                ///< of ST-maps, pixels
   bool half = false;               ///< ST-maps have half precision
   bool all_frames = false;         ///< an ST-map for each frame, instead of the shown moment

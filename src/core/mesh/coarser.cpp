@@ -21,6 +21,18 @@ double roundness(Complex a, Complex b, Complex c) {
   return cross(b - a, c - a) / std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
 }
 
+/// The barycentric coordinates of z in a triangle with this number.
+Location location_in(const Mesh& mesh, const Triangle& t, int number, Complex z) {
+  const auto side = [&](int k) { return mesh.vertices[static_cast<size_t>(t[k])] - z; };
+  const Complex a = side(0), b = side(1), c = side(2);
+  const double wa = cross(b, c), wb = cross(c, a), wc = cross(a, b), area = wa + wb + wc;
+  return {number, {wa / area, wb / area, wc / area}};
+}
+
+double least_weight(const Location& at) {
+  return *std::ranges::min_element(at.weights);
+}
+
 /// Locates points near given vertices.
 class NearbyTriangles {
  public:
@@ -44,10 +56,11 @@ class NearbyTriangles {
     };
     visit(vertex);
     Location best = weighted(waiting.front(), z);
-    while (!waiting.empty() && least(best) < 0) {
+    while (!waiting.empty() && least_weight(best) < 0) {
       const int i = waiting.back();
       waiting.pop_back();
-      if (const Location here = weighted(i, z); least(here) > least(best)) best = here;
+      if (const Location here = weighted(i, z); least_weight(here) > least_weight(best))
+        best = here;
       const Triangle& t = mesh_.triangles[static_cast<size_t>(i)];
       for (size_t k = 0; k < 3; ++k) {
         const auto corner = [&](size_t j) { return mesh_.vertices[static_cast<size_t>(t[j % 3])]; };
@@ -60,14 +73,8 @@ class NearbyTriangles {
   }
 
  private:
-  static double least(const Location& at) { return *std::ranges::min_element(at.weights); }
-
   Location weighted(int triangle, Complex z) const {
-    const Triangle& t = mesh_.triangles[static_cast<size_t>(triangle)];
-    const auto side = [&](int k) { return mesh_.vertices[static_cast<size_t>(t[k])] - z; };
-    const Complex a = side(0), b = side(1), c = side(2);
-    const double wa = cross(b, c), wb = cross(c, a), wc = cross(a, b), area = wa + wb + wc;
-    return {triangle, {wa / area, wb / area, wc / area}};
+    return location_in(mesh_, mesh_.triangles[static_cast<size_t>(triangle)], triangle, z);
   }
 
   const Mesh& mesh_;
@@ -76,10 +83,18 @@ class NearbyTriangles {
   int search_ = 0;
 };
 
+/// Poses of a mesh, and how far a coarser mesh may be from them.
+struct PoseLimit {
+  std::span<const Points> poses;
+  double tolerance;
+};
+
 class Collapse {
  public:
-  explicit Collapse(const Mesh& mesh)
+  explicit Collapse(const Mesh& mesh, std::optional<PoseLimit> limit = {})
       : mesh_(mesh),
+        limit_(limit),
+        inside_(mesh.triangles.size()),
         on_boundary_(boundary_marks(mesh)),
         triangles_(mesh.triangles),
         around_(mesh.vertices.size()),
@@ -105,6 +120,18 @@ class Collapse {
     }
   }
 
+  /// The same, but what a collapse changes may let edges collapse that could not before. Returns
+  /// whether so few vertices are left.
+  bool reaches(size_t count) {
+    for (size_t before = left_ + 1; left_ < before && left_ > count;) {
+      before = left_;
+      for (size_t v = 0; v < around_.size(); ++v)
+        for (const int w : neighbors(static_cast<int>(v))) propose(static_cast<int>(v), w);
+      until(count);
+    }
+    return left_ <= count;
+  }
+
   CoarserMesh result() const {
     CoarserMesh out;
     Mesh& mesh = out.mesh;
@@ -128,6 +155,10 @@ class Collapse {
             v >= 0)
           mesh.boundary.push_back(v);
     }
+    if (limit_) {
+      out.locations = own_locations(mesh, number);
+      return out;
+    }
     NearbyTriangles nearby(mesh);
     for (size_t v = 0; v < around_.size(); ++v) {
       size_t end = v;
@@ -138,6 +169,30 @@ class Collapse {
   }
 
  private:
+  /// The locations of the finer mesh's vertices in the coarser mesh, as they were checked.
+  std::vector<Location> own_locations(const Mesh& coarse, const std::vector<int>& number) const {
+    std::vector<Location> all(around_.size());
+    std::vector<char> found(around_.size(), 0);
+    int triangle = 0;
+    for (size_t i = 0; i < triangles_.size(); ++i) {
+      if (is_removed(triangles_[i])) continue;
+      const Triangle& t = coarse.triangles[static_cast<size_t>(triangle)];
+      for (const int v : inside_[i]) {
+        all[static_cast<size_t>(v)] = location_in(coarse, t, triangle, at(v));
+        found[static_cast<size_t>(v)] = 1;
+      }
+      for (const int v : triangles_[i])
+        if (!std::exchange(found[static_cast<size_t>(v)], char{1})) {
+          Location& here = all[static_cast<size_t>(v)];
+          here.triangle = triangle;
+          for (size_t k = 0; k < 3; ++k)
+            here.weights[k] = t[k] == number[static_cast<size_t>(v)] ? 1 : 0;
+        }
+      ++triangle;
+    }
+    return all;
+  }
+
   static bool has(const Triangle& t, int v) { return std::ranges::find(t, v) != t.end(); }
   static bool is_removed(const Triangle& t) { return t[0] < 0; }
   std::vector<int>& around(int v) { return around_[static_cast<size_t>(v)]; }
@@ -159,12 +214,13 @@ class Collapse {
 
   /// Whether the triangles around `from` stay counter-clockwise and round enough if it moves.
   bool keeps_shapes(int from, int to) {
-    constexpr double kRoundEnough = 0.15;
+    constexpr double kRound = 0.15, kLeastRound = 0.03;
+    const double enough = limit_ ? kLeastRound : kRound;
     return std::ranges::all_of(around(from), [&](int i) {
       const Triangle& t = triangle(i);
       if (has(t, to)) return true;
       const auto moved = [&](int k) { return at(t[k] == from ? to : t[k]); };
-      return roundness(moved(0), moved(1), moved(2)) > kRoundEnough;
+      return roundness(moved(0), moved(1), moved(2)) > enough;
     });
   }
 
@@ -183,8 +239,42 @@ class Collapse {
     const Complex start = walk([&](Index i) { return loops_.before(i); });
     const Complex end = walk([&](Index i) { return loops_.next(i); });
     return std::ranges::all_of(between, [&](int v) {
-      return nearest_on_segment(start, end, at(v)).distance <= kStraight * std::abs(end - start);
+      const double off = nearest_on_segment(start, end, at(v)).distance;
+      return off <= kStraight * std::abs(end - start) && (!limit_ || off <= limit_->tolerance);
     });
+  }
+
+  /// Whether the vertices around `from` stay near their images in all poses if it moves. Finds the
+  /// triangles in which they are then.
+  bool keeps_poses(int from, int to) {
+    moved_.clear();
+    if (!limit_) return true;
+    std::vector<int> vertices{from};
+    for (const int i : around(from))
+      vertices.insert(vertices.end(), inside_[static_cast<size_t>(i)].begin(),
+                      inside_[static_cast<size_t>(i)].end());
+    for (const int v : vertices) {
+      std::optional<Location> best;
+      Triangle corners{};
+      for (const int i : around(from)) {
+        Triangle t = triangle(i);
+        if (has(t, to)) continue;
+        std::ranges::replace(t, from, to);
+        const Location here = location_in(mesh_, t, i, at(v));
+        if (best && least_weight(here) <= least_weight(*best)) continue;
+        best = here;
+        corners = t;
+      }
+      if (!best) return false;
+      for (const Points& pose : limit_->poses) {
+        Complex there;
+        for (size_t k = 0; k < 3; ++k)
+          there += best->weights[k] * pose[static_cast<size_t>(corners[k])];
+        if (std::abs(there - pose[static_cast<size_t>(v)]) > limit_->tolerance) return false;
+      }
+      moved_.emplace_back(v, best->triangle);
+    }
+    return true;
   }
 
   /// Moves `from` to its neighbor `to`, if that is possible.
@@ -197,6 +287,9 @@ class Collapse {
     std::ranges::set_intersection(neighbors(from), neighbors(to), std::back_inserter(shared));
     if (std::ssize(shared) != common || !keeps_shapes(from, to)) return false;
     if (on_boundary(from) && !keeps_boundary(from)) return false;
+    if (!keeps_poses(from, to)) return false;
+    for (const int i : around(from)) inside_[static_cast<size_t>(i)].clear();
+    for (const auto& [v, i] : moved_) inside_[static_cast<size_t>(i)].push_back(v);
     for (const int i : std::exchange(around(from), {})) {
       Triangle& t = triangle(i);
       if (has(t, to)) {
@@ -214,6 +307,11 @@ class Collapse {
   }
 
   const Mesh& mesh_;
+  std::optional<PoseLimit> limit_;
+  /// With a limit, the removed vertices in each triangle, and those that a collapse moves, with
+  /// their new triangles.
+  std::vector<std::vector<int>> inside_;
+  std::vector<std::pair<int, int>> moved_;
   std::vector<char> on_boundary_;
   std::vector<Triangle> triangles_;           ///< removed ones have negative corners
   std::vector<std::vector<int>> around_;      ///< the triangles around each vertex
@@ -231,6 +329,37 @@ CoarserMesh coarser_mesh(const Mesh& mesh, size_t count) {
   Collapse collapse(mesh);
   collapse.until(std::max<size_t>(count, 3));
   return collapse.result();
+}
+
+double distance_of(const CoarserMesh& coarser, std::span<const Complex> images) {
+  Points kept;
+  for (const int v : coarser.kept) kept.push_back(images[static_cast<size_t>(v)]);
+  double farthest = 0;
+  for (size_t v = 0; v < images.size(); ++v)
+    farthest =
+        std::max(farthest, std::abs(coarser.locations[v].in(coarser.mesh, kept) - images[v]));
+  return farthest;
+}
+
+CoarserMesh coarsest_mesh(const Mesh& mesh, std::span<const Points> poses, double tolerance) {
+  Collapse collapse(mesh, PoseLimit{poses, tolerance});
+  collapse.reaches(3);
+  return collapse.result();
+}
+
+CoarserMesh coarser_mesh(const Mesh& mesh, size_t count, std::span<const Points> poses) {
+  constexpr int kTries = 10;
+  constexpr double kLeast = 1e-5;  // of the size
+  double most = box_of(mesh.vertices).diagonal(), least = kLeast * most;
+  std::optional<CoarserMesh> best;
+  for (int i = 0; i < kTries; ++i) {
+    const double tolerance = std::sqrt(least * most);
+    Collapse collapse(mesh, PoseLimit{poses, tolerance});
+    const bool reached = collapse.reaches(std::max<size_t>(count, 3));
+    (reached ? most : least) = tolerance;
+    if (reached) best = collapse.result();
+  }
+  return best ? std::move(*best) : coarser_mesh(mesh, count);
 }
 
 }  // namespace holomorph

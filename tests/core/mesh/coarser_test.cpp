@@ -13,10 +13,9 @@ namespace holomorph::coarser_test {
 namespace {
 
 /// Counter-clockwise triangles, Euler's formula, closed boundaries, and nearly the same area.
-void check_coarser(const Mesh& mesh, size_t count) {
-  const auto [coarse, kept, locations] = coarser_mesh(mesh, count);
-  CAPTURE(mesh.vertices.size(), count, coarse.vertices.size());
-  CHECK(coarse.vertices.size() >= count);
+void check_coarser(const Mesh& mesh, const CoarserMesh& coarser) {
+  const auto& [coarse, kept, locations] = coarser;
+  CAPTURE(mesh.vertices.size(), coarse.vertices.size());
   REQUIRE(kept.size() == coarse.vertices.size());
   for (size_t v = 0; v < kept.size(); ++v)
     CHECK(coarse.vertices[v] == mesh.vertices[static_cast<size_t>(kept[v])]);
@@ -52,6 +51,39 @@ void check_coarser(const Mesh& mesh, size_t count) {
   CHECK(std::ssize(coarse.vertices) - edges + std::ssize(coarse.triangles) == 2 - loops.count());
 }
 
+void check_coarser(const Mesh& mesh, size_t count) {
+  const CoarserMesh coarser = coarser_mesh(mesh, count);
+  CHECK(coarser.kept.size() >= count);
+  check_coarser(mesh, coarser);
+}
+
+/// Waves that bend a mesh, differently in each pose.
+std::vector<Points> random_poses(const Mesh& mesh, std::mt19937& random) {
+  std::vector<Points> poses;
+  for (int k = 0; k < 5; ++k) {
+    const Complex wave = 0.02 * random_complex(random);
+    const double height = 20 * random_complex(random).real();
+    Points pose;
+    for (const Complex z : mesh.vertices)
+      pose.push_back(z + height * std::polar(1.0, (std::conj(wave) * z).real()));
+    poses.push_back(std::move(pose));
+  }
+  return poses;
+}
+
+/// The largest distance of a vertex from where the coarser mesh takes it, in any pose.
+double distance_in(const std::vector<Points>& poses, const CoarserMesh& coarser) {
+  double farthest = 0;
+  for (const Points& pose : poses) {
+    Points kept;
+    for (const int v : coarser.kept) kept.push_back(pose[static_cast<size_t>(v)]);
+    for (size_t v = 0; v < pose.size(); ++v)
+      farthest =
+          std::max(farthest, std::abs(coarser.locations[v].in(coarser.mesh, kept) - pose[v]));
+  }
+  return farthest;
+}
+
 }  // namespace
 
 TEST_CASE("A coarser mesh covers the same domain with fewer triangles") {
@@ -82,6 +114,34 @@ TEST_CASE("A coarser mesh has as few vertices as asked for, unless the outline n
   CHECK(coarser_mesh(mesh, 500).kept.size() == 500);
   CHECK(coarser_mesh(mesh, 60).kept.size() < 90);
   CHECK(coarser_mesh(mesh, mesh.vertices.size() + 1).kept.size() == mesh.vertices.size());
+}
+
+TEST_CASE("The coarsest mesh keeps to its poses and outline, and fewer vertices are farther off") {
+  for (const unsigned seed : seeds_of("coarsest meshes", {1, 2})) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    for (const Points& outline : {shapes::rectangle(600, 100), shapes::l_shape(), shapes::comb(5),
+                                  shapes::star(40, 0.5, random())}) {
+      const Mesh mesh = domain_mesh(outline, {1500});
+      const std::vector<Points> poses = random_poses(mesh, random);
+      size_t before = mesh.vertices.size() + 1;
+      for (const double tolerance : {0.01, 0.1, 1.0, 10.0}) {
+        const CoarserMesh coarser = coarsest_mesh(mesh, poses, tolerance);
+        check_coarser(mesh, coarser);
+        CHECK(distance_in(poses, coarser) <= tolerance * (1 + 1e-9));
+        CHECK(coarser.kept.size() <= before);
+        before = coarser.kept.size();
+      }
+      CHECK(before < mesh.vertices.size() / 4);
+      const size_t few = mesh.vertices.size() / 5;
+      const CoarserMesh blind = coarser_mesh(mesh, few), seeing = coarser_mesh(mesh, few, poses);
+      check_coarser(mesh, seeing);
+      CHECK(distance_in(poses, seeing) <= distance_in(poses, blind) + 1e-9);
+    }
+  }
+  // What does not bend needs no inner vertices.
+  const Mesh mesh = domain_mesh(shapes::rectangle(600, 100), {1500});
+  CHECK(coarsest_mesh(mesh, std::vector<Points>{mesh.vertices}, 0.1).kept.size() == 4);
 }
 
 }  // namespace holomorph::coarser_test
