@@ -99,7 +99,8 @@ void add_moments(CLI::App* sub, Moments& moments, const std::string& frames) {
                                 ? std::string()
                                 : "'" + text + "' is not a time; give 0 or more seconds";
                    });
-  sub->add_option("--frames", moments.frames, "Frames of the timeline, A..B or all" + frames)
+  sub->add_option("--frames", moments.frames,
+                  "Frames of the timeline: A, A..B, A..B:STEP or all" + frames)
       ->excludes(time);
 }
 

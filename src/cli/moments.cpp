@@ -10,17 +10,39 @@
 
 namespace holomorph {
 
-FrameRange frames_named(const std::string& text, const Scene& scene) {
-  const int last = last_frame_of(scene);
+namespace {
 
-  FrameRange range{0, last};
-  int end = 0;
-  if (text != "all" &&
-      (std::sscanf(text.c_str(), "%d..%d%n", &range.first, &range.last, &end) != 2 ||
-       end != static_cast<int>(text.size())))
-    throw Error(
-        ErrorKind::bad_input,
-        "--frames: '" + text + "' is not a range of frames; write all, or for example 0..47");
+/// The frames that a text names: "3", "0..47", or "0..47:2", which is every second one. None if it
+/// has another form.
+std::optional<FrameRange> parsed_frames(const std::string& text) {
+  FrameRange range;
+  const auto fits = [&](const char* format, auto*... numbers) {
+    int end = 0;
+    const int read = std::sscanf(text.c_str(), format, numbers..., &end);
+    return read == sizeof...(numbers) && end == static_cast<int>(text.size());
+  };
+  if (fits("%d..%d:%d%n", &range.first, &range.last, &range.step) && range.step > 0) return range;
+  range.step = 1;
+  if (fits("%d..%d%n", &range.first, &range.last)) return range;
+  if (!fits("%d%n", &range.first)) return {};
+  range.last = range.first;
+  return range;
+}
+
+}  // namespace
+
+FrameRange frames_named(const std::string& text, const Scene& scene, bool takes_steps) {
+  const int last = last_frame_of(scene);
+  const std::optional<FrameRange> parsed =
+      text == "all" ? FrameRange{0, last} : parsed_frames(text);
+  if (!parsed)
+    throw Error(ErrorKind::bad_input,
+                "--frames: '" + text +
+                    "' is not a range of frames; write all, or for example 3, 0..47 or 0..47:2");
+  const FrameRange& range = *parsed;
+  if (range.step != 1 && !takes_steps)
+    throw Error(ErrorKind::bad_input,
+                "--frames: " + text + " leaves out frames, which this command cannot");
   if (range.last < range.first)
     throw Error(ErrorKind::bad_input,
                 "--frames: " + text + " runs backwards; write the lower frame first");
@@ -45,8 +67,8 @@ std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, con
   require_keyframes(scene, path);
   if (!wanted.frames) return {{{}, wanted.time}};
   std::vector<FrameTime> moments;
-  const FrameRange range = frames_named(*wanted.frames, scene);
-  for (int i = range.first; i <= range.last; ++i)
+  const FrameRange range = frames_named(*wanted.frames, scene, true);
+  for (int i = range.first; i <= range.last; i += range.step)
     moments.push_back({i, i / scene.animation.frames_per_second});
   return moments;
 }

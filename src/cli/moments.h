@@ -14,16 +14,18 @@ namespace holomorph {
 /// is used.
 struct Moments {
   std::optional<double> time = {};         ///< seconds
-  std::optional<std::string> frames = {};  ///< "A..B" or "all"
+  std::optional<std::string> frames = {};  ///< "A", "A..B", "A..B:STEP" or "all"
 
   bool any() const { return time || frames; }
 };
 
 struct FrameRange {
   int first = 0, last = 0;
+  int step = 1;
 };
-/// Parses Moments::frames. Throws Error if the text is not a range of the scene's frames.
-FrameRange frames_named(const std::string& text, const Scene& scene);
+/// Parses Moments::frames. Throws Error if the text is not a range of the scene's frames, or if it
+/// has a step that the caller does not take.
+FrameRange frames_named(const std::string& text, const Scene& scene, bool takes_steps = false);
 
 /// One moment: a frame and its time, or only a time. If neither is set, it is the scene's own pose.
 struct FrameTime {

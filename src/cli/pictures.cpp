@@ -59,9 +59,9 @@ void print_motion_rectangle(const LoadedScene& loaded) {
 void render_frames(const RenderCommand& command, LoadedScene& loaded, PictureOptions options,
                    const PictureFormat& format, int depth) {
   const Scene& scene = loaded.scene;
-  const FrameRange range = frames_named(*command.moments.frames, scene);
+  const FrameRange range = frames_named(*command.moments.frames, scene, true);
   std::vector<int> wanted;
-  for (int i = range.first; i <= range.last; ++i)
+  for (int i = range.first; i <= range.last; i += range.step)
     if (!command.missing || !path_exists(numbered(command.out, i))) wanted.push_back(i);
   if (wanted.empty()) return;
   for (const int i : wanted)

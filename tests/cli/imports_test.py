@@ -1,4 +1,5 @@
 # Pictures as other programs write them: the colors that are read, and what is said about the rest.
+import gzip
 import io
 import json
 import random
@@ -194,6 +195,28 @@ class Imports(Case):
         self.assertEqual(shown[0, 0].tolist(), [200, 200, 200, 255])
         with open(self.path("a.json")) as file:
             self.assertEqual({layer["name"] for layer in json.load(file)["layers"]}, {"top"})
+
+    def test_drawings_in_utf_16_and_gzip_are_the_same_drawings(self):
+        text = '<?xml version="1.0" encoding="{}"?><svg xmlns="http://www.w3.org/2000/svg" width="600" height="400"><title>Größe 𝔄</title>' \
+               '<ellipse cx="300" cy="200" rx="200" ry="90" fill="#084"/></svg>'
+        plain = text.format("UTF-8").encode()
+        kinds = {"plain.svg": plain, "little.svg": text.format("UTF-16").encode("utf-16"), "big.svg": b"\xfe\xff" + text.format("UTF-16").encode("utf-16-be"),
+                 "marked.svg": b"\xef\xbb\xbf" + plain, "packed.svgz": gzip.compress(plain), "packed.svg": gzip.compress(plain)}
+        seen = {}
+        for name, data in kinds.items():
+            with open(self.path(name), "wb") as file:
+                file.write(data)
+            self.good("new", self.path(name), "--out", self.path("a.json"), "--force")
+            self.good("render", self.path("a.json"), "--out", self.path("a.png"), "--force")
+            self.good("export", self.path("a.json"), "--format", "drawing", "--out", self.path("bent.svg"), "--force")
+            with open(self.path("a.png"), "rb") as picture, open(self.path("bent.svg"), "rb") as drawing:
+                seen[name] = picture.read(), drawing.read().count(b"<path")
+        for name in kinds:
+            self.assertEqual(seen[name], seen["plain.svg"], name)
+        for name, data in (("cut.svgz", gzip.compress(plain)[:-20]), ("bomb.svgz", gzip.compress(b"<svg>" + b" " * (80 << 20)))):
+            with open(self.path(name), "wb") as file:
+                file.write(data)
+            self.bad("new", self.path(name), "--out", self.path("b.json"), says=name)
 
     def test_a_damaged_zip_channel_is_said(self):
         planes = self.planes(random.Random(1), 4, 20, 20, 8)

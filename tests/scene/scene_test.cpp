@@ -408,6 +408,24 @@ TEST_CASE("The live map follows inserted and deleted points, pins and changes of
 TEST_CASE("CSV points: separators, headings, and errors in a line") {
   CHECK(points_of_csv("x,y\n1,2\n\n3 ; 4\r\n", "p").size() == 2);
   CHECK(points_of_csv("1\t2\n# comment\n", "p")[0] == Complex(1, 2));
+  // As spreadsheets write them: no first row is lost as a heading.
+  const Points two{{1.5, 2}, {3, -4.25}};
+  for (const std::string text :
+       {"1.5,2\n3,-4.25",
+        "\xef\xbb\xbf"
+        "1.5,2\r\n3,-4.25\r\n",
+        "\"1.5\",\"2\"\n\"3\",\"-4.25\"\n", "1,5;2\r\n3;-4,25\r\n", "1,5\t2\n3\t-4,25\n",
+        "\"x\";\"y\"\n\"1,5\";2\n3;\"-4,25\"", "1.5,2\r3,-4.25\r",
+        "# from a table\nx (px), y (px)\n1.5, 2\n3, -4.25\n", "1.5 2\n3  -4.25"}) {
+    INFO(text);
+    CHECK(points_of_csv(text, "p") == two);
+    std::string wide = "\xff\xfe";  // UTF-16, if the text has no mark of its own
+    for (const char c : text) wide += {c, '\0'};
+    if (text[0] != '\xef') CHECK(points_of_csv(wide, "p") == two);
+  }
+  for (const char* text : {"x,1\n2,3\n", "1,234.5;2\n", "1,2;3\n4,5,6\n", "1.2.3,4\n", "1,2\nx,y\n",
+                           "1,,2\n", "\"1,2\n", "1;2;\n"})
+    CHECK_THROWS_WITH(points_of_csv(text, "p"), Catch::Contains("line"));
   CHECK_THROWS_WITH(points_of_csv("1,2\n3\n", "p.csv"), Catch::Contains("p.csv: line 2"));
   CHECK_THROWS_AS(points_of_csv("1,2\nnan,4\n", "p"), Error);
   CHECK_THROWS_AS(points_of_csv("nan,4\n", "p"), Error);

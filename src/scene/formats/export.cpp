@@ -1,10 +1,14 @@
 // Text and NumPy writers. Numbers in text have 17 significant digits, which preserves them exactly.
 #include "scene/formats/export.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <optional>
 #include <sstream>
 
 #include "core/error.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {
@@ -78,32 +82,66 @@ std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int ima
   return out;
 }
 
-Points points_of_csv(const std::string& text, const std::string& name, bool takes_nan) {
+namespace {
+
+/// The fields of a line, without the quotes around them. Semicolons and tabs separate them, or else
+/// commas, or else blanks.
+std::vector<std::string> fields_of(const std::string& line) {
+  const char separator = line.find_first_of(";\t") != std::string::npos
+                             ? line[line.find_first_of(";\t")]
+                         : line.find(',') != std::string::npos ? ','
+                                                               : ' ';
+  std::vector<std::string> fields{""};
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == separator && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  }
+  for (std::string& field : fields) field = trimmed(field);
+  if (separator == ' ') std::erase(fields, "");
+  return fields;
+}
+
+/// A number with a point, or with a decimal comma; none if it is not a number.
+std::optional<double> number_of(std::string field) {
+  if (field.find('.') == std::string::npos)
+    if (const size_t comma = field.find(','); comma != std::string::npos) field[comma] = '.';
+  char* end = nullptr;
+  const double value = std::strtod(field.c_str(), &end);
+  if (field.empty() || *end != '\0') return {};
+  return value;
+}
+
+}  // namespace
+
+Points points_of_csv(const std::string& bytes, const std::string& name, bool takes_nan) {
+  std::string text = utf8_of_file(bytes);
+  for (size_t i = 0; i < text.size(); ++i)  // also line ends of old spreadsheets
+    if (text[i] == '\r') text[i] = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
   Points points;
   std::istringstream lines(text);
+  bool first = true;
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    for (char& c : line)
-      if (c == ',' || c == ';' || c == '\t' || c == '\r') c = ' ';
-    if (line.find_first_not_of(' ') == std::string::npos || line[0] == '#') continue;
-    const char* at = line.c_str();
-    char* end = nullptr;
-    double pair[2];
-    bool good = true;
-    for (double& x : pair) {
-      x = std::strtod(at, &end);
-      good = good && end != at && (std::isfinite(x) || (takes_nan && std::isnan(x)));
-      at = end;
-    }
-    good = good &&
-           line.find_first_not_of(' ', static_cast<size_t>(at - line.c_str())) == std::string::npos;
-    char* first_end = nullptr;
-    std::strtod(line.c_str(), &first_end);
-    if (number == 1 && first_end == line.c_str()) continue;  // a heading
-    if (!good)
+    line = trimmed(line);
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<std::optional<double>> numbers;
+    for (const std::string& field : fields_of(line)) numbers.push_back(number_of(field));
+    const bool is_heading =
+        first && std::ranges::none_of(numbers, [](const auto& value) { return value.has_value(); });
+    first = false;
+    if (is_heading) continue;
+    const auto is_good = [&](const std::optional<double>& value) {
+      return value && (std::isfinite(*value) || (takes_nan && std::isnan(*value)));
+    };
+    if (numbers.size() != 2 || !std::ranges::all_of(numbers, is_good))
       throw Error(ErrorKind::bad_input,
                   name + ": line " + std::to_string(number) + ": expected two finite numbers x,y");
-    points.push_back({pair[0], pair[1]});
+    points.push_back({*numbers[0], *numbers[1]});
   }
   return points;
 }

@@ -26,7 +26,7 @@ const std::vector<FileKind>& file_kinds() {
       {{".mkv"}, {FileContent::film}, "ffmpeg"},
       {{".webm"}, {FileContent::film}, "ffmpeg"},
       {{".avi"}, {FileContent::film}, "ffmpeg"},
-      {{".svg"}, {FileContent::picture, FileContent::path}, "rsvg-convert"},
+      {{".svg", ".svgz"}, {FileContent::picture, FileContent::path}, "rsvg-convert"},
       {{".obj"}, {FileContent::surface}},
       {{".csv"}, {FileContent::points}}};
   return all;

@@ -4,6 +4,8 @@
 #include <array>
 #include <map>
 
+#include "system/text.h"
+
 namespace holomorph {
 namespace {
 
@@ -29,42 +31,17 @@ void add_lost(std::string& lost, const std::string& what) {
   if (lost.find(what) == std::string::npos) lost += (lost.empty() ? "" : ", ") + what;
 }
 
-void append_utf8(std::string& text, unsigned code) {
-  const auto put = [&](unsigned byte) { text += static_cast<char>(byte); };
-  if (code < 0x80) return put(code);
-  if (code < 0x800) {
-    put(0xc0 | code >> 6);
-  } else {
-    if (code < 0x10000) {
-      put(0xe0 | code >> 12);
-    } else {
-      put(0xf0 | code >> 18);
-      put(0x80 | (code >> 12 & 63));
-    }
-    put(0x80 | (code >> 6 & 63));
-  }
-  put(0x80 | (code & 63));
-}
-
-/// A text of UTF-16 code units after their count. Half surrogate pairs become question marks.
+/// A text of UTF-16 code units after their count.
 std::string unicode_text(const FileBytes& file, size_t place, size_t end) {
   constexpr size_t kLongest = 255;
   if (end - place < 4 || file.big(place, 4) > (end - place - 4) / 2)
     file.damaged("a name is too long");
   const size_t count = std::min(kLongest, file.big(place, 4));
-  std::string text;
-  for (size_t i = 0; i < count; ++i) {
-    unsigned code = static_cast<unsigned>(file.big(place + 4 + 2 * i, 2));
-    if (code >= 0xd800 && code < 0xe000) {
-      const unsigned low =
-          i + 1 < count ? static_cast<unsigned>(file.big(place + 6 + 2 * i, 2)) : 0;
-      const bool pair = code < 0xdc00 && low >= 0xdc00 && low < 0xe000;
-      code = pair ? 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00) : '?';
-      i += pair;
-    }
-    if (code != 0) append_utf8(text, code);
-  }
-  return text;
+  std::u16string units;
+  for (size_t i = 0; i < count; ++i)
+    if (const size_t unit = file.big(place + 4 + 2 * i, 2); unit != 0)
+      units += static_cast<char16_t>(unit);
+  return utf8_of(units);
 }
 
 PsdBounds read_bounds(const FileBytes& file, size_t place) {

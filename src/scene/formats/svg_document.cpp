@@ -9,7 +9,9 @@
 
 #include "core/error.h"
 #include "scene/budget.h"
+#include "scene/formats/gzip.h"
 #include "scene/formats/svg_styles.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {
@@ -149,9 +151,14 @@ Viewport own_size(pugi::xml_node root) {
 
 }  // namespace
 
+std::string svg_text_of(const std::string& bytes, const std::string& name) {
+  constexpr size_t kMost = size_t{64} << 20;
+  return utf8_of_file(is_gzip(bytes) ? unpacked_gzip(bytes, name, kMost) : bytes);
+}
+
 pugi::xml_document xml_of(const std::string& text, const std::string& name) {
   pugi::xml_document document;
-  const std::string replaced = with_entities(text, name);
+  const std::string replaced = with_entities(svg_text_of(text, name), name);
   const pugi::xml_parse_result result = document.load_buffer(
       replaced.data(), replaced.size(), pugi::parse_default | pugi::parse_ws_pcdata_single);
   if (!result)

@@ -30,8 +30,11 @@ struct SvgDocument {
 SvgDocument svg_document_of(const std::string& text, const std::string& name,
                             DrawingSize size = DrawingSize::fit_for_work);
 
-/// Parses XML, with the entities that the file declares. Throws Error{bad_input} if it is damaged,
-/// nested too deeply, or if entities make it too long.
+/// The text of an SVG file in UTF-8, from UTF-16 or gzip. Throws Error{bad_input}.
+std::string svg_text_of(const std::string& bytes, const std::string& name);
+
+/// Parses XML, with the entities that the file declares, from svg_text_of() the bytes. Throws
+/// Error{bad_input} if it is damaged, nested too deeply, or if entities make it too long.
 pugi::xml_document xml_of(const std::string& text, const std::string& name);
 
 /// The bounding box of the shapes and pictures in an element, in its own user units, y down:

@@ -2,6 +2,7 @@
 // drawing through a pipe.
 #include "core/error.h"
 #include "scene/budget.h"
+#include "scene/formats/gzip.h"
 #include "scene/formats/image_formats.h"
 #include "scene/formats/svg_document.h"
 #include "system/process.h"
@@ -18,12 +19,28 @@ struct Text final : pugi::xml_writer {
 
 }  // namespace
 
-bool is_svg(const std::string& bytes) {
+namespace {
+
+bool is_svg_text(std::string_view bytes) {
   constexpr size_t kFarthest = 1 << 16;  // behind comments and entities
   const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == std::string::npos || bytes[first] != '<') return false;
-  return std::string_view(bytes).substr(first, kFarthest).find("<svg") != std::string_view::npos ||
-         std::string_view(bytes).substr(first, kFarthest).find(":svg") != std::string_view::npos;
+  const std::string_view start = bytes.substr(first, kFarthest);
+  return start.find("<svg") != std::string_view::npos ||
+         start.find(":svg") != std::string_view::npos;
+}
+
+}  // namespace
+
+bool is_svg(const std::string& bytes) {
+  const bool is_plain =
+      !is_gzip(bytes) && !bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff");
+  if (is_plain) return is_svg_text(bytes);
+  try {
+    return is_svg_text(svg_text_of(bytes, ""));
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels,
