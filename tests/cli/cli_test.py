@@ -779,7 +779,7 @@ class CommandLine(Case):
                 result = run("new", "--force", file.name, "--out", self.path("s.json"))
                 self.assertIn(result.returncode, (0, 2), result.stderr)
         picture.save(self.path("film.webp"), save_all=True, append_images=[picture.rotate(90, expand=False)])
-        self.bad("new", "--force", self.path("film.webp"), "--out", self.path("s.json"), says="animated")
+        self.assertIn("only the first of its 2 pictures", self.good("new", "--force", self.path("film.webp"), "--out", self.path("s.json")).stderr)
         Image.new("L", (16400, 2)).save(self.path("wide.tif"))
         self.bad("new", "--force", self.path("wide.tif"), "--out", self.path("s.json"), says="16384")
 
@@ -860,7 +860,7 @@ class CommandLine(Case):
         with open(self.path("blended.json")) as file:
             self.assertEqual(json.load(file)["layers"][0]["blending"], "multiply")
         blended = self.open_raster("blended.ora", '<layer name="a" src="data/a.png" composite-op="svg:difference"/>', {"data/a.png": red})
-        self.assertIn("a: its blending mode", self.good("new", "--force", blended, "--out", self.path("blended.json")).stderr)
+        self.assertIn("a: left out: its blending mode", self.good("new", "--force", blended, "--out", self.path("blended.json")).stderr)
         self.assertEqual(seen.shape, (40, 60, 4))
         wanted = numpy.zeros((40, 60, 4), int)
         wanted[:, :] = (200, 0, 0, 255)
