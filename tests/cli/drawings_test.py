@@ -205,7 +205,8 @@ class Drawings(Case):
         w, h = 1200, 800
         shapes = []
         for _ in range(few_or_many(2, 12)):
-            points = [complex(self.chance.uniform(80, w - 80), self.chance.uniform(80, h - 80)) for _ in range(4)]
+            # Inside the cage, which has no corners.
+            points = [complex(self.chance.uniform(150, w - 150), self.chance.uniform(120, h - 120)) for _ in range(4)]
             shapes.append(points)
         text = "".join("<path fill='none' stroke='#123' stroke-width='3' d='M{0.real} {0.imag}C{1.real} {1.imag} {2.real} {2.imag} {3.real} {3.imag}'/>"
                        .format(*points) for points in shapes)
