@@ -296,7 +296,7 @@ void CommandLine::add_export(CLI::App& app) {
                       "Frames per second of moving meshes, by default the fewest frames with "
                       "which the motion does not visibly differ; players interpolate between "
                       "them; for glb, godot and spine")
-          ->check(CLI::Range(0.1, 1000.0));
+          ->check(CLI::Range(0.1, 500.0));
   sub->add_flag("--keys", exported.keys,
                 "Frames of moving meshes only at keyframes; for glb, godot and spine")
       ->excludes(rate);

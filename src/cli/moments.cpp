@@ -1,6 +1,7 @@
 // Frame i is at i / frames_per_second seconds.
 #include "cli/moments.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/streams.h"
@@ -21,10 +22,11 @@ std::optional<FrameRange> parsed_frames(const std::string& text) {
     const int read = std::sscanf(text.c_str(), format, numbers..., &end);
     return read == sizeof...(numbers) && end == static_cast<int>(text.size());
   };
-  if (fits("%d..%d:%d%n", &range.first, &range.last, &range.step) && range.step > 0) return range;
+  if (fits("%9d..%9d:%9d%n", &range.first, &range.last, &range.step) && range.step > 0)
+    return range;
   range.step = 1;
-  if (fits("%d..%d%n", &range.first, &range.last)) return range;
-  if (!fits("%d%n", &range.first)) return {};
+  if (fits("%9d..%9d%n", &range.first, &range.last)) return range;
+  if (!fits("%9d%n", &range.first)) return {};
   range.last = range.first;
   return range;
 }
@@ -39,10 +41,10 @@ FrameRange frames_named(const std::string& text, const Scene& scene, bool takes_
     throw Error(ErrorKind::bad_input,
                 "--frames: '" + text +
                     "' is not a range of frames; write all, or for example 3, 0..47 or 0..47:2");
-  const FrameRange& range = *parsed;
+  FrameRange range = *parsed;
   if (range.step != 1 && !takes_steps)
     throw Error(ErrorKind::bad_input,
-                "--frames: " + text + " leaves out frames, which this command cannot");
+                "--frames: " + text + " has a step; this command writes every frame of a range");
   if (range.last < range.first)
     throw Error(ErrorKind::bad_input,
                 "--frames: " + text + " runs backwards; write the lower frame first");
@@ -50,7 +52,9 @@ FrameRange frames_named(const std::string& text, const Scene& scene, bool takes_
     throw Error(ErrorKind::bad_input,
                 "--frames: the scene has frames 0.." + std::to_string(last) + " at " +
                     csv_line("%g", scene.animation.frames_per_second) + " frames per second");
-  check_budget(&Budget::frames, range.last - range.first + 1.0, "--frames: the range has");
+  range.step = std::min(range.step, range.last - range.first + 1);
+  check_budget(&Budget::frames, (range.last - range.first) / range.step + 1.0,
+               "--frames: the range has");
   return range;
 }
 

@@ -79,7 +79,7 @@ std::vector<double> key_times(const Scene& scene, double from, double to) {
     const std::vector<Keyframe>& keys = layer->deformation.keyframes;
     for (size_t k = 0; k < keys.size(); ++k) {
       add(keys[k].time);
-      if (keys[k].ease == Ease::hold && k + 1 < keys.size()) add(keys[k + 1].time - 0.5 * kJump);
+      if (keys[k].ease == Ease::hold && k + 1 < keys.size()) add(keys[k + 1].time - kJump);
     }
   }
   return times;
@@ -99,7 +99,7 @@ std::vector<double> checked_times(std::vector<double> times, const std::vector<d
   times.insert(times.end(), checked.begin(), checked.end());
   sort_times(times);
   for (size_t i = 0; i + 1 < times.size(); ++i)
-    if (times[i + 1] - times[i] > kJump) checked.push_back(0.5 * (times[i] + times[i + 1]));
+    if (!is_jump(times[i], times[i + 1])) checked.push_back(0.5 * (times[i] + times[i + 1]));
   sort_times(checked);
   return checked;
 }
@@ -193,8 +193,10 @@ std::vector<Path> mesh_file_names(const Scene& scene, const Pictures& pictures,
 std::string mesh_advice(const MovingMeshes& moving, const MeshExport& wanted) {
   constexpr size_t kManyTargets = 256;
   std::string text;
-  if (moving.error > kVisibleError && (wanted.rate || wanted.keys))
-    text += "; without a rate, frames are chosen that are closer";
+  if (moving.frame_error > kVisibleError)
+    text += "; more vertices are closer";
+  else if (moving.error > kVisibleError && (wanted.rate || wanted.keys))
+    text += "; the fewest frames that are chosen without a rate are closer";
   if (wanted.format == "glb" && moving.times.size() > kManyTargets)
     text +=
         "; some programs do not load more than " + std::to_string(kManyTargets) + " morph targets";

@@ -11,7 +11,7 @@ namespace holomorph {
 struct MeshExport {
   std::string format;  ///< its id
   Path out;
-  /// Of each layer; by default the fewest that do not differ visibly, if the format has all layers.
+  /// Of each layer. By default, formats with all layers get so few that no difference is visible.
   std::optional<size_t> vertices = {};
   std::optional<double> time = {};  ///< a single moment in seconds
   /// The first and the last frame. If neither this nor the time is set: all frames or, if nothing
@@ -39,7 +39,8 @@ std::vector<Path> mesh_file_names(const Scene& scene, const Pictures& pictures,
 
 /// The error up to which a motion does not visibly differ, in pixels.
 inline constexpr double kVisibleError = 0.25;
-/// What is said about meshes that are visibly off, or that some programs do not load; or "".
+/// Advice about a visible error, or about programs that do not load so many frames; empty if there
+/// is none.
 std::string mesh_advice(const MovingMeshes& moving, const MeshExport& wanted);
 /// Such as "3 meshes, 1200 vertices, 49 frames".
 std::string mesh_counts(const MovingMeshes& moving);

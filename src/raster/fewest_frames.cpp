@@ -53,7 +53,7 @@ class FrameChooser {
 
   void add_between(const Sample& a, const Sample& b, int depth) {
     constexpr int kDeepest = 6;
-    if (b.time - a.time <= kJump) return;
+    if (is_jump(a.time, b.time)) return;
     Sample middle{0.5 * (a.time + b.time), {}};
     middle.at = exact_(middle.time);
     if (depth == kDeepest || are_near(a.at, b.at, 0.5, middle.at, tolerance_))

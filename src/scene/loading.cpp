@@ -203,18 +203,10 @@ Layer layer_of_picture(const Path& file, const std::string& entry, PictureFiles&
   return layer;
 }
 
-}  // namespace
-
-namespace {
-
 /// The layers of a picture's file, if it has some. If there are too many, the lowest are left out.
-FileLayers contents_of(const Path& path) {
+FileLayers layers_in(const Path& path) {
   FileLayers all;
-  if (!is_named_as(path, FileContent::film)) {
-    const std::string bytes = read_file(path);
-    if (may_have_layers(path)) all = layers_of_file(bytes, path.string());
-    if (all.layers.empty()) all.report.add(report_of_image(bytes));
-  }
+  if (may_have_layers(path)) all = layers_of_file(read_file(path), path.string());
   all.report.file = path.filename().string();
   if (all.layers.size() <= kMaxLayers) return all;
   const size_t over = all.layers.size() - kMaxLayers;
@@ -222,22 +214,36 @@ FileLayers contents_of(const Path& path) {
   all.report.add("", "left out: the lowest " + std::to_string(over) +
                          " of its layers, because a scene has at most " +
                          std::to_string(kMaxLayers));
+  for (FileLayer& layer : all.layers) {
+    if (!layer.clipped) break;
+    layer.clipped = false;
+    all.report.add(layer.name, "left out: its clipping");
+  }
   return all;
+}
+
+/// What is left out of a picture without layers that can be decoded.
+ImportReport report_of_picture(const Path& path) {
+  if (is_named_as(path, FileContent::film)) return {};
+  return report_of_image(read_file(path), path.string());
 }
 
 }  // namespace
 
 ImportReport import_report(const Path& image) {
-  return contents_of(image).report;
+  FileLayers in_file = layers_in(image);
+  if (in_file.layers.empty()) in_file.report.add(report_of_picture(image));
+  return in_file.report;
 }
 
 LoadedScene scene_of_image(const Path& path, double open_pixels) {
   LoadedScene loaded;
   PictureFiles files(open_pixels);
-  FileLayers in_file = contents_of(path);
+  FileLayers in_file = layers_in(path);
   loaded.report = std::move(in_file.report);
   if (in_file.layers.empty()) {
     loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
+    loaded.report.add(report_of_picture(path));
     if (const Clip* clip = clip_of(loaded.scene.layer()))
       loaded.scene.animation.frames_per_second = clip->frames_per_second;
     // Parts of a photograph that move away leave gaps, which the original fills.
@@ -245,6 +251,9 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
       loaded.scene.background.fill = Background::Fill::original;
     return loaded;
   }
+  check_budget(&Budget::pixels,
+               1.0 * in_file.width * in_file.height * static_cast<double>(in_file.layers.size()),
+               path.string() + ": the layers have");
   std::vector<Layer> layers;
   for (const FileLayer& each : in_file.layers) {
     Layer layer = layer_of_picture(path, each.entry, files, loaded.pictures);

@@ -189,7 +189,7 @@ class Imports(Case):
 
     def test_of_too_many_layers_the_topmost_open(self):
         shades = [[numpy.full((1, 1), 255)] + [numpy.full((1, 1), value)] * 3 for value in (10, 200)]
-        layers = [("low" if i < 20 else "top", 0, 0, shades[i >= 20]) for i in range(420)]
+        layers = [("low" if i < 20 else "top", 0, 0, shades[i >= 20]) for i in range(420)]  # with 4 pixels each
         merged = [numpy.full((2, 2), 99)] * 3
         shown, said = self.opened(psd(2, 2, RGB, 8, NONE, merged, layers), "the lowest 20 of its layers")
         self.assertEqual(shown[0, 0].tolist(), [200, 200, 200, 255])
@@ -213,10 +213,23 @@ class Imports(Case):
                 seen[name] = picture.read(), drawing.read().count(b"<path")
         for name in kinds:
             self.assertEqual(seen[name], seen["plain.svg"], name)
-        for name, data in (("cut.svgz", gzip.compress(plain)[:-20]), ("bomb.svgz", gzip.compress(b"<svg>" + b" " * (80 << 20)))):
+        wrong = (("cut.svgz", gzip.compress(plain)[:-20], "damaged or incomplete"),
+                 ("bomb.svgz", gzip.compress(b"<svg>" + b" " * (80 << 20)), "more than 64 MB"))
+        for name, data, says in wrong:
             with open(self.path(name), "wb") as file:
                 file.write(data)
-            self.bad("new", self.path(name), "--out", self.path("b.json"), says=name)
+            self.bad("new", self.path(name), "--out", self.path("b.json"), says=says)
+
+    def test_damaged_pictures_are_named_before_they_are_reported_on(self):
+        frames = [Image.effect_noise((60, 40), 90).convert("RGB") for _ in range(3)]
+        for kind in ("gif", "png", "webp", "tif"):
+            frames[0].save(self.path("a." + kind), save_all=True, append_images=frames[1:])
+            with open(self.path("a." + kind), "rb") as file:
+                data = file.read()
+            for length in (9, 40, len(data) // 4):
+                with open(self.path("cut." + kind), "wb") as file:
+                    file.write(data[:length])
+                self.bad("new", self.path("cut." + kind), "--out", self.path("b.json"), says="cut." + kind)
 
     def test_a_damaged_zip_channel_is_said(self):
         planes = self.planes(random.Random(1), 4, 20, 20, 8)

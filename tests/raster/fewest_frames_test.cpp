@@ -11,7 +11,7 @@ namespace {
 double distance_of(const Frames& frames, const std::function<std::vector<Points>(double)>& exact) {
   double farthest = 0;
   for (size_t i = 0; i + 1 < frames.times.size(); ++i) {
-    if (frames.times[i + 1] - frames.times[i] <= kJump) continue;
+    if (is_jump(frames.times[i], frames.times[i + 1])) continue;
     for (const double u : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const auto at = exact((1 - u) * frames.times[i] + u * frames.times[i + 1]);
       for (size_t k = 0; k < at.size(); ++k)

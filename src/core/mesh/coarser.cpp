@@ -120,8 +120,8 @@ class Collapse {
     }
   }
 
-  /// The same, but what a collapse changes may let edges collapse that could not before. Returns
-  /// whether so few vertices are left.
+  /// Repeats until() while it removes vertices, because a collapse can make others possible.
+  /// Returns whether at most `count` vertices are left.
   bool reaches(size_t count) {
     for (size_t before = left_ + 1; left_ < before && left_ > count;) {
       before = left_;
@@ -329,16 +329,6 @@ CoarserMesh coarser_mesh(const Mesh& mesh, size_t count) {
   Collapse collapse(mesh);
   collapse.until(std::max<size_t>(count, 3));
   return collapse.result();
-}
-
-double distance_of(const CoarserMesh& coarser, std::span<const Complex> images) {
-  Points kept;
-  for (const int v : coarser.kept) kept.push_back(images[static_cast<size_t>(v)]);
-  double farthest = 0;
-  for (size_t v = 0; v < images.size(); ++v)
-    farthest =
-        std::max(farthest, std::abs(coarser.locations[v].in(coarser.mesh, kept) - images[v]));
-  return farthest;
 }
 
 CoarserMesh coarsest_mesh(const Mesh& mesh, std::span<const Points> poses, double tolerance) {

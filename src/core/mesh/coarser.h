@@ -20,12 +20,9 @@ struct CoarserMesh {
 /// twentieth of an edge's length from that edge. `cage_vertices` is empty. Cost: O(n log n).
 CoarserMesh coarser_mesh(const Mesh& mesh, size_t count);
 
-/// The largest distance between images of a mesh's vertices and where a coarser mesh takes them.
-double distance_of(const CoarserMesh& coarser, std::span<const Complex> images);
-
-/// Such a mesh with few vertices that is within `tolerance` of the mesh: its boundary at rest, and,
-/// in each of the poses, where it takes the vertices. `poses` are the images of the vertices. Cost:
-/// up to O(n log n), and some hundreds of comparisons with each pose for each vertex.
+/// A coarser mesh, as above, with few vertices. Its boundary at rest, and where it takes the
+/// vertices in each of the poses, are within `tolerance` of the original. `poses` are the images of
+/// the vertices. Cost: O(n log n), and some hundreds of comparisons with each pose for each vertex.
 CoarserMesh coarsest_mesh(const Mesh& mesh, std::span<const Points> poses, double tolerance);
 
 /// A mesh with `count` vertices that is close to the mesh in each of the poses. If none is found,

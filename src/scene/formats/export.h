@@ -20,9 +20,10 @@ std::string npy_of(const std::vector<float>& numbers, size_t rows, size_t column
 std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width,
                    int image_height);
 
-/// The points in a CSV file: two numbers per line, separated by a comma, a semicolon or blanks. If
-/// the first line does not start with a number, it is skipped as a heading. NaN is an error unless
-/// `takes_nan`. Throws Error with the line number.
-Points points_of_csv(const std::string& text, const std::string& name, bool takes_nan = false);
+/// The points in a table: two numbers per line, separated by a semicolon, a tab, a comma or blanks,
+/// in UTF-8 or UTF-16. Fields may be quoted, and numbers may have a decimal comma. The first line
+/// is skipped as a heading if none of its fields is a number. NaN is an error unless `takes_nan`.
+/// Throws Error with the line number.
+Points points_of_csv(const std::string& bytes, const std::string& name, bool takes_nan = false);
 
 }  // namespace holomorph

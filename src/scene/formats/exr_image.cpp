@@ -68,6 +68,18 @@ void check_memory(const std::string& bytes, const std::string& name) {
                     std::to_string(static_cast<int>(pixel)) + " bytes per pixel");
 }
 
+/// Limits what the library reads. Throws Error if reading the file would take much memory.
+void check_limits(const std::string& bytes, const std::string& name) {
+  constexpr int kLargest = 16384, kLargestTile = 2048;
+  static const bool limited = [] {
+    Imf::Header::setMaxImageSize(kLargest, kLargest);
+    Imf::Header::setMaxTileSize(kLargestTile, kLargestTile);
+    return true;
+  }();
+  check(limited, "check_limits: limits are set");
+  check_memory(bytes, name);
+}
+
 /// The matrix from a file's linear colors, as row vectors, to those of sRGB. Colors are adapted to
 /// the other white by the Bradford transform.
 Imath::M33f to_linear_srgb(const Imf::Chromaticities& from) {
@@ -220,15 +232,8 @@ bool is_exr(const std::string& bytes) {
 
 Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget& pixels,
                  PixelDepth depth) {
-  constexpr int kLargest = 16384, kLargestTile = 2048;
-  static const bool limited = [] {
-    Imf::Header::setMaxImageSize(kLargest, kLargest);
-    Imf::Header::setMaxTileSize(kLargestTile, kLargestTile);
-    return true;
-  }();
-  check(limited, "decode_exr: limits are set");
   try {
-    check_memory(bytes, name);
+    check_limits(bytes, name);
     ExrStream stream(bytes, name);
     Rows rows(stream, name);
     return read_display(rows, name, pixels, depth);
@@ -241,14 +246,14 @@ Image decode_exr(const std::string& bytes, const std::string& name, PixelBudget&
   }
 }
 
-void report_exr(const std::string& bytes, ImportReport& report) {
-  const std::string name;
+void report_exr(const std::string& bytes, const std::string& name, ImportReport& report) {
   try {
+    check_limits(bytes, name);
     ExrStream stream(bytes, name);
     const Imf::MultiPartInputFile file(stream, 1);
     report_first_of(static_cast<size_t>(file.parts()), "parts", report);
     const Imf::ChannelList& channels = file.header(0).channels();
-    const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+    const auto has = [&](const char* color) { return channels.findChannel(color) != nullptr; };
     const std::set<std::string> colors = has("R") || has("G") || has("B")
                                              ? std::set<std::string>{"R", "G", "B", "A"}
                                              : std::set<std::string>{"Y", "RY", "BY", "A"};

@@ -52,7 +52,7 @@ class FileBytes {
   [[noreturn]] void damaged(const std::string& why) const {
     throw Error(ErrorKind::bad_input, name_ + ": the picture is damaged (" + why + ")");
   }
-  /// Of intact files with something that is not read.
+  /// Throws Error for an intact file with a feature that is not supported.
   [[noreturn]] void unsupported(const std::string& what) const {
     throw Error(ErrorKind::bad_input, name_ + ": " + what);
   }

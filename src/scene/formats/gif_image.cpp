@@ -129,8 +129,8 @@ bool is_gif(const std::string& bytes) {
   return bytes.starts_with("GIF8");
 }
 
-void report_gif(const std::string& bytes, ImportReport& report) {
-  report_first_of(GifReader(bytes, "").count(), "pictures", report);
+void report_gif(const std::string& bytes, const std::string& name, ImportReport& report) {
+  report_first_of(GifReader(bytes, name).count(), "pictures", report);
 }
 
 Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget& pixels) {

@@ -109,13 +109,13 @@ void report_first_of(size_t pictures, const char* what, ImportReport& report) {
     report.add("", "only the first of its " + std::to_string(pictures) + " " + what + " is opened");
 }
 
-ImportReport report_of_image(const std::string& bytes) {
+ImportReport report_of_image(const std::string& bytes, const std::string& name) {
   ImportReport report;
-  if (is_png(bytes)) report_png(bytes, report);
-  if (is_webp(bytes)) report_webp(bytes, report);
-  if (is_tiff(bytes)) report_tiff(bytes, report);
-  if (is_exr(bytes)) report_exr(bytes, report);
-  if (is_gif(bytes)) report_gif(bytes, report);
+  if (is_png(bytes)) report_png(bytes, name, report);
+  if (is_webp(bytes)) report_webp(bytes, name, report);
+  if (is_tiff(bytes)) report_tiff(bytes, name, report);
+  if (is_exr(bytes)) report_exr(bytes, name, report);
+  if (is_gif(bytes)) report_gif(bytes, name, report);
   return report;
 }
 

@@ -74,7 +74,7 @@ inline Image decode_image(const std::string& bytes, const std::string& name) {
   return decode_image(bytes, name, alone);
 }
 /// What decode_image() leaves out of a file that it can decode.
-ImportReport report_of_image(const std::string& bytes);
+ImportReport report_of_image(const std::string& bytes, const std::string& name);
 /// Whether a file that starts with these bytes may have more than 8 bits that can be read.
 bool has_fine_pixels(const std::string& start);
 

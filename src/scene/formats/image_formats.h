@@ -27,7 +27,7 @@ Image decode_gif(const std::string& bytes, const std::string& name, PixelBudget&
 /// OpenRaster: the merged picture of all layers that the file contains.
 bool is_ora(const std::string& bytes);
 Image decode_ora(const std::string& bytes, const std::string& name, PixelBudget& pixels);
-/// How large drawings become pictures.
+/// The size of the picture of a drawing.
 enum class DrawingSize { fit_for_work, own };
 /// SVG: drawn as large as svg_document_of() says. Needs the program rsvg-convert.
 bool is_svg(const std::string& bytes);
@@ -39,12 +39,12 @@ std::optional<Image> decode_plain(const std::string& bytes, const std::string& n
 
 // What the decoders above leave out of a file that they can decode, for the import report: pictures
 // after the first one, and bits.
-void report_png(const std::string& bytes, ImportReport& report);
-void report_webp(const std::string& bytes, ImportReport& report);
-void report_tiff(const std::string& bytes, ImportReport& report);
-void report_exr(const std::string& bytes, ImportReport& report);
-void report_gif(const std::string& bytes, ImportReport& report);
-/// "shown: the first of its 12 pictures"; nothing if there is one.
+void report_png(const std::string& bytes, const std::string& name, ImportReport& report);
+void report_webp(const std::string& bytes, const std::string& name, ImportReport& report);
+void report_tiff(const std::string& bytes, const std::string& name, ImportReport& report);
+void report_exr(const std::string& bytes, const std::string& name, ImportReport& report);
+void report_gif(const std::string& bytes, const std::string& name, ImportReport& report);
+/// Adds "only the first of its 12 pictures is opened"; nothing if there is one.
 void report_first_of(size_t pictures, const char* what, ImportReport& report);
 
 /// A PNG file with 16 bits, in sRGB. Throws Error{failed}.

@@ -24,6 +24,7 @@ struct FileLayer {
 struct FileLayers {
   std::vector<FileLayer> layers;
   ImportReport report;
+  int width = 0, height = 0;  ///< of the canvas
 };
 
 /// Whether files with this name may have layers.

@@ -118,8 +118,9 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
     if (std::string(node.name()) == "layer" && (kind == ".png" || kind == ".svg"))
       stack.layers.push_back(here);
     else
-      stack.report.add(here.layer.name, "left out: the whole layer, a " + std::string(node.name()) +
-                                            " that is neither a PNG picture nor an SVG drawing");
+      stack.report.add(here.layer.name,
+                       "left out: the whole layer, which is neither a PNG picture nor an SVG "
+                       "drawing");
   }
 }
 
@@ -134,9 +135,6 @@ Stack stack_of(const Archive& archive, const std::string& name) {
   one.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
   collect(image.child("stack"), {}, 0, stack);
   if (stack.layers.empty()) fail(name, "it has no pixel layers");
-  check_budget(&Budget::pixels,
-               1.0 * stack.width * stack.height * static_cast<double>(stack.layers.size()),
-               name + ": the layers have");
   return stack;
 }
 
@@ -156,6 +154,8 @@ FileLayers ora_layers(const std::string& bytes, const std::string& name) {
   const Stack stack = stack_of(Archive(bytes, name), name);
   FileLayers all;
   all.report = stack.report;
+  all.width = stack.width;
+  all.height = stack.height;
   for (size_t i = stack.layers.size(); i-- > 0;) {
     const FileLayer& layer = stack.layers[i].layer;
     all.layers.push_back(layer);

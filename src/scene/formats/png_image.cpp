@@ -238,9 +238,9 @@ bool is_png(const std::string& bytes) {
 
 /// The chunk acTL of an animated PNG file begins with the number of frames. It comes before the
 /// pixels.
-void report_png(const std::string& bytes, ImportReport& report) {
+void report_png(const std::string& bytes, const std::string& name, ImportReport& report) {
   constexpr size_t kSignature = 8, kAround = 12;  // bytes of a chunk around its content
-  const FileBytes file(bytes, "");
+  const FileBytes file(bytes, name);
   for (size_t place = kSignature; place + kAround <= file.size();) {
     const size_t length = file.big(place, 4);
     const std::string kind = file.text(place + 4, 4);

@@ -77,6 +77,7 @@ void read_block(const FileBytes& file, const std::string& key, size_t place, siz
   if (key == "vmsk" || key == "vsms") add_lost(layer.lost, "its vector mask");
   if (key == "SoLd" || key == "SoLE" || key == "PlLd")
     add_lost(layer.lost, "its smart object, of which only the pixels are kept");
+  if (key == "TySh") add_lost(layer.lost, "its text, of which only the pixels are kept");
   if (std::ranges::find(kAdjustments, key) != std::end(kAdjustments)) record.skipped = true;
 }
 
@@ -85,6 +86,8 @@ PsdRecord read_record(const FileBytes& file, size_t& place) {
   PsdRecord record;
   record.bounds = read_bounds(file, place);
   const size_t channels = file.big(place + 16, 2);
+  constexpr size_t kMostChannels = 60;
+  if (channels > kMostChannels) file.damaged("a layer has too many channels");
   place += 18;
   for (size_t k = 0; k < channels; ++k, place += 6)
     record.channels.push_back(
@@ -144,7 +147,9 @@ void read_resources(const FileBytes& file, size_t place, size_t end, PsdFile& ps
 
 /// Reads the records of the layers and finds their channels.
 void read_layers(const FileBytes& file, size_t place, PsdFile& psd) {
-  const int count = std::abs(static_cast<int>(static_cast<std::int16_t>(file.big(place, 2))));
+  const int signed_count = static_cast<std::int16_t>(file.big(place, 2)),
+            count = std::abs(signed_count);
+  psd.says_alpha = signed_count <= 0;
   place += 2;
   if (count > kMostRecords) file.damaged("it has too many layers");
   for (int i = 0; i < count; ++i) psd.records.push_back(read_record(file, place));
@@ -218,7 +223,8 @@ PsdFile read_psd(const FileBytes& file) {
     return place + length;
   };
   size_t end = section();
-  psd.palette = file.text(place, end - place);
+  if (psd.mode == PsdMode::indexed)
+    psd.palette = file.text(place, std::min<size_t>(end - place, 768));
   place = end;
   end = section();
   read_resources(file, place, end, psd);

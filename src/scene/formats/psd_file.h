@@ -53,6 +53,13 @@ struct PsdFile {
   std::vector<PsdRecord> records;  ///< from bottom to top
   size_t merged = 0;               ///< where the merged picture begins
 
+  /// The layers say that the first extra channel of the merged picture is its transparency. Files
+  /// without layers do not tell.
+  bool says_alpha = true;
+  bool has_merged_alpha() const {
+    return says_alpha && channels > colors() && mode != PsdMode::indexed;
+  }
+
   /// The number of channels that are colors.
   size_t colors() const {
     return mode == PsdMode::cmyk ? 4 : mode == PsdMode::rgb || mode == PsdMode::lab ? 3 : 1;

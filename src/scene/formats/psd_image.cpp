@@ -198,6 +198,8 @@ void apply_mask(const FileBytes& file, const PsdFile& psd, const PsdRecord& reco
   const PsdChannel* channel = record.channel(PsdChannel::kMask);
   if (!record.mask || !channel) return;
   const PsdBounds& mask = *record.mask;
+  check_budget(&Budget::pixels, static_cast<double>(mask.width() * mask.height()),
+               file.name() + ": a mask has");
   std::optional<PsdRows> rows;
   if (mask.width() > 0 && mask.height() > 0) rows.emplace(rows_of(file, psd, *channel, mask));
   if (rows && kept.top > mask.top)
@@ -250,8 +252,10 @@ FileLayers psd_layers(const std::string& bytes, const std::string& name) {
   flatten(tree_of(psd, file), {}, all);
   PixelBudget one;
   one.take(psd.width, psd.height, name);
-  check_budget(&Budget::pixels, static_cast<double>(psd.width * psd.height * all.layers.size()),
-               name + ": the layers have");
+  all.width = static_cast<int>(psd.width);
+  all.height = static_cast<int>(psd.height);
+  if (psd.records.empty() && psd.has_merged_alpha())
+    all.report.add("", "its first extra channel is used as transparency");
   return all;
 }
 
@@ -300,7 +304,7 @@ Image decode_psd(const std::string& bytes, const std::string& name, PixelBudget&
   const bool packed = samples.packing == PsdPacking::run_lengths;
   samples.place = samples.lengths + (packed ? 2 * psd.channels * psd.height : 0);
   std::vector<PsdRows> channels;
-  const bool has_alpha = psd.channels > psd.colors() && psd.mode != PsdMode::indexed;
+  const bool has_alpha = psd.has_merged_alpha();
   for (size_t k = 0; k < psd.colors() + (has_alpha ? 1 : 0); ++k) {
     size_t length = packed ? 0 : samples.bytes_per_row() * psd.height;
     for (size_t r = 0; packed && r < psd.height; ++r)

@@ -78,7 +78,7 @@ void PsdRows::unpack(size_t length) {
   if (at != width) file_->damaged("its rows have the wrong length");
 }
 
-/// Unpacks the bytes of the next row, or passes over them where that is possible.
+/// Unpacks the bytes of the next row.
 void PsdRows::advance() {
   switch (samples_.packing) {
     case PsdPacking::none:

@@ -6,6 +6,7 @@
 #include "scene/formats/image_formats.h"
 #include "scene/formats/svg_document.h"
 #include "system/process.h"
+#include "system/text.h"
 
 namespace holomorph {
 namespace {
@@ -33,14 +34,11 @@ bool is_svg_text(std::string_view bytes) {
 }  // namespace
 
 bool is_svg(const std::string& bytes) {
-  const bool is_plain =
-      !is_gzip(bytes) && !bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff");
-  if (is_plain) return is_svg_text(bytes);
-  try {
-    return is_svg_text(svg_text_of(bytes, ""));
-  } catch (const Error&) {
-    return false;
-  }
+  constexpr size_t kStart = 1 << 16;
+  if (is_gzip(bytes)) return is_svg_text(utf8_of_file(start_of_gzip(bytes, kStart)));
+  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
+    return is_svg_text(utf8_of_file(bytes.substr(0, kStart)));
+  return is_svg_text(bytes);
 }
 
 Image decode_svg(const std::string& bytes, const std::string& name, PixelBudget& pixels,

@@ -103,16 +103,16 @@ bool is_tiff(const std::string& bytes) {
   return head == "II*\0"sv || head == "MM\0*"sv;
 }
 
-void report_tiff(const std::string& bytes, ImportReport& report) {
+void report_tiff(const std::string& bytes, const std::string& name, ImportReport& report) {
   Stream stream{bytes};
-  const auto file = opened(stream, "");
+  const auto file = opened(stream, name);
   if (!file) return;
   uint16_t bits = 8, count = 0, *kinds = nullptr;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_BITSPERSAMPLE, &bits);
   TIFFGetField(file.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds);
   if (bits > 8)
     report.add("", "its " + std::to_string(bits) + " bits per channel are rounded to 8");
-  if (count > 1) report.add("", "left out: its channels after the first extra one");
+  if (count > 1) report.add("", "left out: all of its extra channels but the first");
   report_first_of(TIFFNumberOfDirectories(file.get()), "pages", report);
 }
 

@@ -29,7 +29,12 @@ bool decode_first_frame(const std::string& bytes, Image& image) {
       WebPAnimDecoderNew(&file, &options), WebPAnimDecoderDelete);
   uint8_t* pixels = nullptr;
   int time = 0;
-  if (!decoder || !WebPAnimDecoderGetNext(decoder.get(), &pixels, &time)) return false;
+  WebPAnimInfo info{};
+  if (!decoder || !WebPAnimDecoderGetInfo(decoder.get(), &info) ||
+      static_cast<int>(info.canvas_width) != image.width ||
+      static_cast<int>(info.canvas_height) != image.height ||
+      !WebPAnimDecoderGetNext(decoder.get(), &pixels, &time))
+    return false;
   std::copy_n(pixels, image.pixels.size(), image.pixels.data());
   return true;
 }
@@ -52,7 +57,7 @@ int orientation_of(const std::string& bytes) {
 
 }  // namespace
 
-void report_webp(const std::string& bytes, ImportReport& report) {
+void report_webp(const std::string& bytes, const std::string&, ImportReport& report) {
   const WebPData file{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
   const std::unique_ptr<WebPMux, void (*)(WebPMux*)> mux(WebPMuxCreate(&file, 0), WebPMuxDelete);
   int frames = 0;
