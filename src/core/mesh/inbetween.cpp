@@ -43,7 +43,8 @@ Inbetween::Inbetween(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) 
     if (seen[static_cast<size_t>(first)]) continue;
     seen[static_cast<size_t>(first)] = 1;
     const int still = std::ranges::min(mesh_->triangles[static_cast<size_t>(first)]);
-    entries.push_back({still, still, entries[static_cast<size_t>(9 * first)].value()});
+    anchors_.emplace_back(still, entries[static_cast<size_t>(9 * first)].value());
+    entries.push_back({still, still, anchors_.back().second});
     part_starts_.push_back(order_.size());
     order_.push_back({first, -1});
     for (size_t at = part_starts_.back(); at < order_.size(); ++at)
@@ -155,21 +156,35 @@ std::vector<Inbetween::Visit> Inbetween::order_around(const std::vector<char>& f
   return order;
 }
 
+Inbetween::Derivatives Inbetween::derivatives(const VectorXc& f, Index triangle) const {
+  const Triangle& t = mesh_->triangles[static_cast<size_t>(triangle)];
+  Derivatives sum{0, 0};
+  for (int a = 0; a < 3; ++a) {
+    const Complex e = opposite_side(*mesh_, t, a);
+    sum.fz += times(-kI * std::conj(e), f[t[a]]);
+    sum.fzbar += times(kI * e, f[t[a]]);
+  }
+  return {sum.fz / (4 * areas_[triangle]), sum.fzbar / (4 * areas_[triangle])};
+}
+
+void Inbetween::add_right_side(Index triangle, const Derivatives& wanted, VectorXc& right) const {
+  const Triangle& t = mesh_->triangles[static_cast<size_t>(triangle)];
+  const Complex fz = 0.25 * wanted.fz, fzbar = 0.25 * wanted.fzbar;
+  for (int c = 0; c < 3; ++c) {
+    const Complex e = opposite_side(*mesh_, t, c);
+    right[t[c]] += times(kI * e, fz) + times(-kI * std::conj(e), fzbar);
+  }
+}
+
 Inbetween::Shape Inbetween::shape_of(const VectorXc& f, int turns) const {
   const Index count = areas_.size();
   Shape shape{f, VectorXc(count), VectorXc(count), 0};
   VectorXc fz(count), fzbar(count);
   std::vector<char> flipped(static_cast<size_t>(count), 0);
   for (Index i = 0; i < count; ++i) {
-    const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
-    fz[i] = fzbar[i] = 0;
-    for (int a = 0; a < 3; ++a) {
-      const Complex e = opposite_side(*mesh_, t, a);
-      fz[i] += times(-kI * std::conj(e), f[t[a]]);
-      fzbar[i] += times(kI * e, f[t[a]]);
-    }
-    fz[i] /= 4 * areas_[i];
-    fzbar[i] /= 4 * areas_[i];
+    const auto [z, zbar] = derivatives(f, i);
+    fz[i] = z;
+    fzbar[i] = zbar;
     flipped[static_cast<size_t>(i)] = std::norm(fzbar[i]) >= std::norm(fz[i]);
   }
   const bool folds = std::ranges::find(flipped, 1) != flipped.end();
@@ -257,16 +272,11 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
   const double from_a = duration * u * (1 - u) * (1 - u), from_b = -duration * u * u * (1 - u);
   VectorXc right = VectorXc::Zero(a.f.size());
   for (Index i = 0; i < areas_.size(); ++i) {
-    const Triangle& t = mesh_->triangles[static_cast<size_t>(i)];
     Complex logarithm = (1 - weight) * a.logarithm[i] + weight * b.logarithm[i];
     if (cubic) logarithm += from_a * (*slopes_a)[i] + from_b * (*slopes_b)[i];
     const Complex nu = (1 - weight) * a.nu[i] + weight * b.nu[i];
-    const Complex fz = 0.25 * std::polar(std::exp(logarithm.real()), logarithm.imag()),
-                  fzbar = std::conj(times(nu, fz));
-    for (int c = 0; c < 3; ++c) {
-      const Complex e = opposite_side(*mesh_, t, c);
-      right[t[c]] += times(kI * e, fz) + times(-kI * std::conj(e), fzbar);
-    }
+    const Complex fz = std::polar(std::exp(logarithm.real()), logarithm.imag());
+    add_right_side(i, {fz, std::conj(times(nu, fz))}, right);
   }
   f = laplacian_->solve(right);  // one pass over the factor for both parts
   const auto shift_at = [&](const Location& place) {
@@ -288,6 +298,29 @@ void Inbetween::blend(const Interval& interval, double u, VectorXc& f) const {
       for (const int v : mesh_->triangles[static_cast<size_t>(triangle)])
         if (!std::exchange(moved[static_cast<size_t>(v)], 1)) f[v] += shift;
   }
+}
+
+bool Inbetween::unfold(VectorXc& f) const {
+  constexpr int kRounds = 200;
+  constexpr double kLargest = 0.9, kEnough = 0.95;  // |f_zbar / f_z|
+  for (int round = 0; round < kRounds; ++round) {
+    VectorXc right = VectorXc::Zero(f.size());
+    bool folds = false;
+    for (Index i = 0; i < areas_.size(); ++i) {
+      Derivatives now = derivatives(f, i);
+      const double z = std::abs(now.fz), zbar = std::abs(now.fzbar);
+      folds = folds || zbar > kEnough * z;
+      if (zbar > kLargest * z && z > 0) {
+        const double nearest = (z + kLargest * zbar) / (1 + kLargest * kLargest);
+        now = {nearest / z * now.fz, kLargest * nearest / zbar * now.fzbar};
+      }
+      add_right_side(i, now, right);
+    }
+    if (!folds) return true;
+    for (const auto& [vertex, weight] : anchors_) right[vertex] += weight * f[vertex];
+    f = laplacian_->solve(right);
+  }
+  return false;
 }
 
 Location least_moving_point(const Mesh& mesh, const VectorXc& a, const VectorXc& b) {

@@ -70,9 +70,21 @@ class Inbetween {
   /// 10,000 vertices.
   void blend(const Interval& interval, double u, VectorXc& f) const;
 
+  /// Moves the vertices until no triangle is flipped. In each round, the triangles that are flipped
+  /// or nearly so take the nearest maps that are not, and vertices follow by least squares. Returns
+  /// whether it succeeded. Cost: up to 200 times that of blend().
+  bool unfold(VectorXc& f) const;
+
   const Mesh& mesh() const { return *mesh_; }
 
  private:
+  struct Derivatives {
+    Complex fz, fzbar;
+  };
+  Derivatives derivatives(const VectorXc& f, Index triangle) const;
+  /// Adds what the right side has if a triangle shall have these derivatives.
+  void add_right_side(Index triangle, const Derivatives& wanted, VectorXc& right) const;
+
   std::shared_ptr<const Mesh> mesh_;
   /// Triangles, part by part, ordered such that each one except a part's first has an earlier
   /// neighbor.
@@ -86,6 +98,8 @@ class Inbetween {
   std::vector<Visit> order_;
   std::vector<size_t> part_starts_;  ///< where each part starts in it
   VectorXd areas_;
+  /// A vertex of each part, and the weight with which the Laplacian holds it.
+  std::vector<std::pair<int, double>> anchors_;
   std::shared_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> laplacian_;
 };
 

@@ -26,7 +26,19 @@ struct SheetSetting {
   std::vector<size_t> numbers;  ///< of the pins
   std::shared_ptr<const Inbetween> between;
   std::shared_ptr<const FixedCoordinates> frame;
+  VectorXd tethers;  ///< weights with which vertices are pulled to the blended map
 };
+
+/// Weak springs from each vertex to its place in a blended map. A compressed limb buckles to one
+/// side or to the other, and a small change of the blended map could make it jump from one to the
+/// other. The springs decide, and hardly change sizes.
+VectorXd tethers_of(const SheetDomain& domain) {
+  constexpr double kWeight = 100;  // of all springs together; a pin has 1e5
+  VectorXd areas = VectorXd::Zero(static_cast<Index>(domain.mesh->vertices.size()));
+  for (const Triangle& t : domain.mesh->triangles)
+    for (const int v : t) areas[v] += area_of(*domain.mesh, t);
+  return kWeight / (domain.size * domain.size) / areas.sum() * areas;
+}
 
 struct SheetKey {
   Inbetween::Shape shape;
@@ -73,8 +85,11 @@ class SheetInterval final : public MotionInterval {
     VectorXc f;
     setting_->between->blend(interval, u, f);
     setting_->frame->restore(f);
-    const Blended at = blended(u, f);
-    if (flipped_triangles(mesh(), f) > 0) f = (u < 0.5 ? keys_[1] : keys_[2])->shape.f;
+    Blended at = blended(u, f);
+    if (flipped_triangles(mesh(), f) > 0 && !setting_->between->unfold(f))
+      f = (u < 0.5 ? keys_[1] : keys_[2])->shape.f;
+    for (Index v = 0; v < f.size(); ++v)
+      at.pull.vertices.push_back({static_cast<int>(v), f[v], {setting_->tethers[v]}});
     const auto found =
         std::make_shared<const BlendedSheet>(solver().relaxed(at.pull, at.places, std::move(f)));
     const ProvedSheet sheet(solver(), found->f);
@@ -241,8 +256,9 @@ std::shared_ptr<const ProvedMotion> sheet_motion(std::shared_ptr<const SheetSolv
   const std::shared_ptr<const Mesh>& mesh = solver->domain().mesh;
   auto between = std::make_shared<const Inbetween>(mesh);
   auto frame = std::make_shared<const FixedCoordinates>(mesh, solver->handles().holds().fixed);
-  return std::make_shared<const SheetMotion>(SheetSetting{
-      solver, std::move(places), std::move(numbers), std::move(between), std::move(frame)});
+  return std::make_shared<const SheetMotion>(
+      SheetSetting{solver, std::move(places), std::move(numbers), std::move(between),
+                   std::move(frame), tethers_of(solver->domain())});
 }
 
 }  // namespace holomorph
