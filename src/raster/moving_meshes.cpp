@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "core/error.h"
 #include "core/mesh/coarser.h"
@@ -36,7 +38,7 @@ class LayerMesh {
     if (options.vertices && *options.vertices < rest_.size())
       coarser_ = coarser_mesh(*drawn, *options.vertices, some_poses(options));
     else if (options.vertex_tolerance)
-      coarser_ = coarsest_mesh(*drawn, some_poses(options), *options.vertex_tolerance);
+      choose_fewest_vertices(*drawn, options);
     if (coarser_) {
       kept_ = coarser_->kept;
       drawn = std::make_shared<const Mesh>(coarser_->mesh);
@@ -94,7 +96,8 @@ class LayerMesh {
   /// positions.
   double distance(const Time& time, const Points& exported) {
     const Points& all = positions(time);
-    const std::span<const Complex> kept(exported.data(), kept_.size());
+    const std::span<const Complex> kept(exported.data(),
+                                        coarser_ ? coarser_->kept.size() : rest_.size());
     double farthest = 0;
     for (size_t v = 0; v < all.size(); ++v) {
       const Complex there = coarser_ ? coarser_->locations[v].in(coarser_->mesh, kept) : kept[v];
@@ -104,23 +107,55 @@ class LayerMesh {
   }
 
  private:
-  /// The positions at about 24 of the times, or in the scene's own pose.
+  /// The positions at about 24 of the times and near some of the keyframes, or in the scene's own
+  /// pose.
   std::vector<Points> some_poses(const MovingMeshOptions& options) {
     if (options.times.empty()) return {positions({})};
     constexpr size_t kSome = 24;
-    std::vector<Points> poses;
+    std::set<double> chosen{options.times.back()};
     const size_t step = 1 + options.times.size() / kSome;
-    for (size_t i = 0; i < options.times.size(); i += step)
-      poses.push_back(positions(options.times[i]));
-    poses.push_back(positions(options.times.back()));
+    for (size_t i = 0; i < options.times.size(); i += step) chosen.insert(options.times[i]);
+    const std::vector<Keyframe>& keys = layer_.deformation.keyframes;
+    for (size_t k = 0; k < keys.size(); k += 1 + keys.size() / kSome)
+      if (const auto time = std::ranges::lower_bound(options.times, keys[k].time);
+          time != options.times.end())
+        chosen.insert(*time);
+    std::vector<Points> poses;
+    for (const double time : chosen) poses.push_back(positions(time));
     return poses;
+  }
+
+  /// Chooses a mesh that is close at some of the times, and adds the times at which it is not close
+  /// until there are none. If there are always some, all vertices stay.
+  void choose_fewest_vertices(const Mesh& all, const MovingMeshOptions& options) {
+    constexpr int kRounds = 12;
+    constexpr size_t kAtOnce = 8;
+    constexpr double kSlack = 1.25;  // for errors that are only just too large
+    // Errors are measured where the layer lies.
+    const double tolerance = *options.vertex_tolerance / std::abs(layer_.placement.factor);
+    std::vector<Points> poses = some_poses(options);
+    for (int round = 0; round < kRounds; ++round) {
+      coarser_ = coarsest_mesh(all, poses, tolerance);
+      std::vector<std::pair<double, double>> off;  // how far, and when
+      for (const double time : options.times) {
+        Points kept;
+        for (const int v : coarser_->kept) kept.push_back(positions(time)[static_cast<size_t>(v)]);
+        const double far = distance(time, kept);
+        if (far > kSlack * tolerance) off.emplace_back(far, time);
+      }
+      if (off.empty()) return;
+      std::ranges::sort(off, std::greater<>{});
+      for (size_t i = 0; i < std::min(kAtOnce, off.size()); ++i)
+        poses.push_back(positions(off[i].second));
+    }
+    coarser_.reset();
   }
 
   /// The rectangle of a picture without a cage.
   void set_plain(const Image* picture) {
     if (!picture) return;
-    const double w = picture->width, h = picture->height;
-    rest_ = {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)};
+    const auto corners = picture->box().corners();
+    rest_ = {corners.begin(), corners.end()};
     kept_ = {0, 1, 2, 3};
     triangles_ = {{0, 1, 2}, {0, 2, 3}};
   }

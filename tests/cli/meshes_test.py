@@ -191,6 +191,25 @@ class Meshes(Case):
                     exact = self.positions(scene, "--time", time)[[kept[i] for i in inner]]
                     self.assertLessEqual(numpy.hypot(*(drawn - exact).T).max(), 0.3, time)
 
+    def test_a_short_motion_in_a_long_film_is_kept(self):
+        """The vertices are chosen for all frames, also for those between the ones that are looked at first, and where a layer is enlarged."""
+        for seed in (1, seed_of("short motions", 2)):
+            with self.subTest(seed=seed):
+                rng = random.Random(seed)
+                Image.new("RGBA", (300, 60), (90, 120, 200, 255)).save(self.path("bar.png"))
+                start, rest = rng.uniform(4, 15), [{"pose": [x, 30]} for x in (20, 150, 280)]
+                raised = rest[:2] + [{"pose": [220, 30 + rng.uniform(60, 90)]}]
+                keys = [{"time": time, "pose": {"pins": pins}} for time, pins in
+                        ((0, rest), (start, rest), (start + 0.25, raised), (start + 0.5, rest), (20, rest))]
+                scale = rng.choice([1, 5])
+                scene = {"format": "holomorph", "version": 2, "layers": [
+                    {"image": {"file": "bar.png"}, "cage": {"rest": [[[x, y]] for x, y in ((0, 0), (300, 0), (300, 60), (0, 60))]},
+                     "pins": [{"rest": pin["pose"]} for pin in rest], "method": {"id": "sheet"}, "keyframes": keys,
+                     "placement": {"factor": [scale, 0], "shift": [0, 0]}}]}
+                said = self.good("export", self.write("wave.json", scene), "--format", "glb", "--out", self.path("w.glb"), "--force").stderr
+                error = float(re.search(r"at most ([0-9.e+-]+) px off", said).group(1))
+                self.assertLess(error, 0.5, (seed, said))
+
     def test_held_poses_jump_at_their_ends(self):
         scene = json.loads(self.content(self.moving(random.Random(5), 1)))
         for key in scene["layers"][0]["keyframes"]:
