@@ -282,6 +282,17 @@ class Files(Case):
                          says="", status=1, preexec_fn=small, restore_signals=False)
                 self.assertEqual(os.listdir(folder), [])
 
+    @staticmethod
+    def wait_until_it_listens(process, stop):
+        """On a machine with much to do, a signal can come before the program does anything at all."""
+        end = time.time() + 20
+        while time.time() < end and process.poll() is None:
+            with open(f"/proc/{process.pid}/status") as status:
+                caught = next(line.split()[1] for line in status if line.startswith("SigCgt"))
+            if int(caught, 16) >> (stop - 1) & 1:
+                return
+            time.sleep(0.01)
+
     def test_stopped_commands_end_with_130_and_leave_nothing(self):
         draw = random.Random(SEED)
         many = self.write("many.csv", "20,20\n" * 20000)
@@ -296,6 +307,7 @@ class Files(Case):
                 with self.subTest(words=words, stop=stop):
                     process = subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                                text=True, env=self.paths)
+                    self.wait_until_it_listens(process, stop)
                     time.sleep(draw.uniform(0.1, 0.4))
                     process.send_signal(stop)
                     said = process.communicate(timeout=20)[1]
