@@ -7,7 +7,7 @@ uniform vec4 flat_color;
 uniform vec4 other_color;    // the second color of the page
 uniform float cell_size;     // of the page's checkerboard, in plane units
 uniform float softness;      // standard deviation of the shadow, in plane units
-uniform vec2 picture_size;   // in plane units
+uniform vec2 rectangle_corner, rectangle_size;  // of the page, in plane units
 
 in vec2 uv;
 in vec2 rest_position;
@@ -36,12 +36,12 @@ void main() {
   vec4 here = texture(picture, uv);
   color = flat_color.a * vec4(mix(here.rgb, here.a * flat_color.rgb, 0.5), here.a);
 #elif COLORING == 5
-  vec2 cell = floor(rest_position / cell_size);
+  vec2 cell = floor((rest_position - rectangle_corner) / cell_size);
   color = mod(cell.x + cell.y, 2.0) < 0.5 ? flat_color : other_color;
 #elif COLORING == 6
   // A box blurred by a Gaussian, shifted down by half the softness.
-  vec2 at = rest_position + vec2(0.0, 0.5 * softness);
-  vec2 low = at / softness, high = (picture_size - at) / softness;
+  vec2 at = rest_position - rectangle_corner + vec2(0.0, 0.5 * softness);
+  vec2 low = at / softness, high = (rectangle_size - at) / softness;
   float covered = smooth_step(low.x) * smooth_step(high.x) * smooth_step(low.y) * smooth_step(high.y);
   color = vec4(0.0, 0.0, 0.0, flat_color.a * covered);
 #else

@@ -1,8 +1,8 @@
 // Positions each vertex of the domain mesh: at a position that the CPU computed, or by applying a
 // method's operator to its controls.
 uniform mat3 to_clip;          // plane to clip coordinates
-uniform vec2 picture_size;     // in plane units
-uniform float margin;         // enlarges the picture's rectangle on all sides, in plane units
+uniform vec2 rectangle_corner, rectangle_size;  // of the picture or the page, in plane units
+uniform float margin;          // enlarges the page on all sides, in plane units
 uniform int mode;              // 0: at rest, 1: positions, 2: operator
 uniform int column_count;      // size of the operator
 uniform int row_count;
@@ -23,7 +23,8 @@ invariant gl_Position;
 
 void main() {
   vec2 at = rest;
-  if (margin > 0.0) at += margin * (2.0 * rest / picture_size - 1.0);
+  vec2 place = (rest - rectangle_corner) / rectangle_size;
+  if (margin > 0.0) at += margin * (2.0 * place - 1.0);
   if (mode == 1) at = position;
   if (mode == 2) {
     vec2 sum = vec2(0.0);
@@ -35,7 +36,7 @@ void main() {
     at = rest + sum;
   }
   warped = at;
-  uv = vec2(rest.x / picture_size.x, 1.0 - rest.y / picture_size.y);
+  uv = vec2(place.x, 1.0 - place.y);
   rest_position = mode == 0 ? at : rest;
   shade = value;
   gl_Position = vec4((to_clip * vec3(at, 1.0)).xy, 0.0, 1.0);

@@ -424,7 +424,7 @@ void Editor::draw_panels(const Input& input, PanelSizes sizes) {
   toasts_.draw(workspace_, style, screen_.now_ms());
   if (workspace_.map().error() && workspace_.map().error()->where())
     draw_marker(workspace_, *workspace_.map().error()->where(), style);
-  files_.draw();
+  files_.draw(thumbnails_);
   keys_.draw();
   answer(palette_.draw(workspace_, preferences_));
 }

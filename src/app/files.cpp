@@ -38,7 +38,7 @@ Files::Files(Workspace& workspace, Preferences& preferences, std::function<void(
           workspace, jobs_, dialog_, [this] { return reach(); },
           [this](const Path& path) { keep_recent(path); },
           [this](const Path& path) { trust_folder_of(path); }, replaced_),
-      watch_(workspace),
+      watch_(workspace, [this](FoundLayers found) { ask_about_layers(std::move(found)); }),
       recoverable_(holomorph::recoverable(autosave_folder())) {}
 
 void Files::trust_folder_of(const Path& path) {
@@ -66,6 +66,7 @@ void Files::adopt(Document document) {
   workspace_.open(std::move(document));
   exports_.forget();
   questions_.withdraw();
+  layer_question_.withdraw();
   watch_.forget();
   scene_watch_ = {};
   replaced_();
@@ -394,12 +395,19 @@ void Files::answer(Request request) {
     case Request::show_withheld:
       ask_about_withheld();
       break;
+    case Request::find_layers: {
+      const Document& document = workspace_.document;
+      if (const auto missing = document.layers_without_picture(); !missing.empty())
+        watch_.find_layers(document.scene().layers[missing[0]]->image->file, {});
+      break;
+    }
     case Request::import_cage:
     case Request::import_pose:
     case Request::import_outline:
     case Request::add_layer:
     case Request::replace_picture:
     case Request::play_numbered:
+    case Request::add_new_layers:
     case Request::find_picture:
     case Request::paste_picture:
       imports_.answer(request);
@@ -416,7 +424,14 @@ void Files::answer(Request request) {
   }
 }
 
-void Files::draw() {
+void Files::ask_about_layers(FoundLayers found) {
+  const std::string file = found.update.file;
+  layer_question_.ask(std::move(found), [this, file](const LayerChoices& choices) {
+    watch_.find_layers(file, choices);
+  });
+}
+
+void Files::draw(Thumbnails& thumbnails) {
   const Path& scene = workspace_.document.path();
   std::vector<Path> folders;
   constexpr size_t kMostFolders = 4;
@@ -427,6 +442,7 @@ void Files::draw() {
   dialog_.set_places(scene.empty() ? Path() : scene.parent_path(), std::move(folders));
   dialog_.draw();
   questions_.draw();
+  layer_question_.draw(thumbnails);
   exports_.draw();
   jobs_.draw();
 }

@@ -2,6 +2,7 @@
 // for the user that these involve.
 #pragma once
 
+#include "app/dialogs/layer_question.h"
 #include "app/dialogs/question.h"
 #include "app/exports.h"
 #include "app/imports.h"
@@ -44,12 +45,15 @@ class Files {
   void autosave();
   void keep_preferences();
   /// Draws the open dialog or question, if any.
-  void draw();
+  void draw(Thumbnails& thumbnails);
   bool asking() const {
-    return dialog_.open() || exports_.asking() || questions_.open() || jobs_.running();
+    return dialog_.open() || exports_.asking() || questions_.open() || layer_question_.open() ||
+           jobs_.running();
   }
   /// The title of the question dialog, or "".
-  std::string question() const { return questions_.title(); }
+  std::string question() const {
+    return layer_question_.open() ? LayerQuestion::kTitle : questions_.title();
+  }
   /// Whether a job is running. Frames must then be drawn even without events.
   bool busy() const { return jobs_.running(); }
   Jobs& jobs() { return jobs_; }
@@ -68,6 +72,7 @@ class Files {
   void recover(const Path& autosave);
   void ask_about_unsaved(const std::vector<Recovery>& left);
   void ask_about_withheld();
+  void ask_about_layers(FoundLayers found);
   void show_withheld();
   void reload();
   void watch_scene();
@@ -83,6 +88,7 @@ class Files {
   bool allow_outside_;
   Jobs jobs_;
   Questions questions_;
+  LayerQuestion layer_question_;
   FileChooser dialog_;
   Exports exports_;
   Imports imports_;

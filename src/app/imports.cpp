@@ -38,6 +38,29 @@ std::string Imports::add_layer(const Path& path) {
       });
 }
 
+/// Adds the layers of the edited layer's file that the scene does not show yet.
+std::string Imports::add_new_layers() {
+  const std::string file = workspace_.document.scene().layer().image->file;
+  const auto added = std::make_shared<LoadedScene>();
+  const auto count = std::make_shared<size_t>(0);
+  return jobs_.run(
+      "Reading " + Path(file).filename().string(),
+      [added, count, file, scene = workspace_.document.scene(),
+       open = open_pixels()](Job::Progress&) {
+        PictureFiles files(open);
+        const LayerUpdate update = layer_update(layers_of(scene), file, files);
+        *count = update.added.size();
+        added->scene = with_added_layers(scene, update, files, added->pictures);
+      },
+      [this, added, count, file] {
+        if (*count == 0)
+          return workspace_.messages.say("All layers of " + Path(file).filename().string() +
+                                         " are in the scene.");
+        workspace_.document.add_pictures(added->pictures);
+        workspace_.commit_layers("Add new layers", added->scene);
+      });
+}
+
 double Imports::open_pixels() const {
   return workspace_.document.pictures().pixels();
 }
@@ -45,8 +68,7 @@ double Imports::open_pixels() const {
 /// Puts the picture of the edited layer into the middle of the view, with a box around it.
 Scene Imports::in_the_middle(Scene scene, const Image& picture) const {
   Deformation boxed = with_box(scene.deformation(), picture);
-  const Complex middle(picture.width / 2.0, picture.height / 2.0),
-      by = workspace_.display.viewport.center - middle;
+  const Complex by = workspace_.display.viewport.center - picture.box().center();
   const Complex whole(std::round(by.real()), std::round(by.imag()));  // keeps the pixels sharp
   return with_deformation(std::move(scene), moved_as_whole(std::move(boxed), whole));
 }
@@ -192,7 +214,7 @@ std::string Imports::svg(const Path& path, bool pose) {
   const auto cage = std::make_shared<Cage>();
   return jobs_.run(
       "Reading " + path.filename().string(),
-      [cage, path, pose, height = image ? image->height : 0,
+      [cage, path, pose, height = image ? image->page().top : 0.0,
        rest = workspace_.shown.base().rest](Job::Progress&) {
         *cage = pose ? cage_of_svg(read_file(path), path.string(), height, PathUse::pose, &rest)
                      : cage_of_svg(read_file(path), path.string(), height);
@@ -225,7 +247,7 @@ void Imports::take_cage(Cage cage, bool pose) {
 std::string Imports::outline(const Path& path) {
   const Image* image = workspace_.document.image();
   const auto outline = std::make_shared<Points>();
-  const auto read = [outline, path, height = image ? image->height : 0,
+  const auto read = [outline, path, height = image ? image->page().top : 0.0,
                      onto = box_of(outline_of(workspace_.shown.own().rest))](Job::Progress&) {
     *outline = outline_of_file(path, height, onto);
   };
@@ -260,6 +282,9 @@ void Imports::answer(Request request) {
       chooser_.ask_open("Replace picture", "Replace",
                         extensions_of({FileContent::picture, FileContent::film}),
                         [this](const Path& path) { return replace_picture(path); });
+      break;
+    case Request::add_new_layers:
+      workspace_.messages.complain(add_new_layers());
       break;
     case Request::play_numbered:
       workspace_.messages.complain(play_numbered());

@@ -35,6 +35,7 @@ class Imports {
   double open_pixels() const;
   std::string replace_picture(ImageReference reference, const std::string& label);
   std::string play_numbered();
+  std::string add_new_layers();
   void show_timeline_of_films();
   bool add_layers_of(const LoadedScene& added, const std::string& label);
   Scene in_the_middle(Scene scene, const Image& picture) const;

@@ -62,9 +62,7 @@ bool is_settled(const Workspace& workspace) {
 LastPicture picture_of(const std::vector<LayerSnapshot>& layers) {
   Box box;
   for (const LayerSnapshot& layer : layers) {
-    const double w = layer.picture->width, h = layer.picture->height;
-    for (const Complex& z : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
-      box.include(layer.placement(z));
+    for (const Complex& z : layer.picture->page().corners()) box.include(layer.placement(z));
     for (const Complex& z : layer.f) box.include(layer.placement(z));
   }
   const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));

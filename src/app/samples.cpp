@@ -40,7 +40,8 @@ constexpr double kThumbnail = 320;  ///< length of the longer side in pixels
 Image thumbnail_of(const Path& scene) {
   const LoadedScene loaded = load_scene(scene);
   PictureOptions options;
-  options.scale = kThumbnail / std::max({loaded.image()->width, loaded.image()->height, 1});
+  const Box page = loaded.image()->page();
+  options.scale = kThumbnail / std::max(page.width(), page.height());
   return picture_of(loaded.scene, loaded.image(), options, loaded.pictures).image;
 }
 

@@ -21,9 +21,10 @@ Image thumbnail_of_file(const Path& file) {
     return reduced(decode_image(read_file(file), file.filename().string()), kLongestSide);
   const LoadedScene loaded = load_scene(file);
   PictureOptions options;
-  int longest = 1;
-  if (const Image* image = loaded.image()) longest = std::max({image->width, image->height, 1});
-  options.scale = std::min(1.0, static_cast<double>(kLongestSide) / longest);
+  double longest = 1;
+  if (const Image* image = loaded.image())
+    longest = std::max(image->page().width(), image->page().height());
+  options.scale = std::min(1.0, kLongestSide / longest);
   return reduced(picture_of(loaded.scene, loaded.image(), options, loaded.pictures).image,
                  kLongestSide);
 }

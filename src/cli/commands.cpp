@@ -28,10 +28,9 @@ namespace {
 Cage cage_of_file(const Path& path, const Image& picture) {
   const std::string text = read_file(path);
   if (!is_named_as(path, FileContent::surface))
-    return cage_of_svg(text, path.string(), picture.height, PathUse::rest);
+    return cage_of_svg(text, path.string(), picture.page().top, PathUse::rest);
   try {
-    return polygon_cage(
-        texture_boundary(surface_of_obj(text, path.string()), picture.width, picture.height));
+    return polygon_cage(texture_boundary(surface_of_obj(text, path.string()), picture.page()));
   } catch (const Error& error) {
     throw about(path, error);
   }
@@ -71,7 +70,7 @@ void run(const NewCommand& command) {
   const LoadedScene loaded = scene_of_image(command.image);
   print_warning(loaded.message());
   const Image& picture = *loaded.image();
-  const double height = picture.height;
+  const double height = picture.page().top;
   Deformation deformation = with_cage(
       {}, command.cage
               ? cage_of_file(*command.cage, picture)

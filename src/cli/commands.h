@@ -58,6 +58,11 @@ struct InfoCommand : SceneCommand {
   bool json = false;
   Moments moments = {};
 };
+/// Finds the layers of files that have changed again, and writes the scene.
+struct UpdateCommand : SceneCommand {
+  std::vector<std::string> matches;  ///< such as "arm=left arm": a layer before and now
+  bool adds = false;                 ///< add the layers that are new in the files
+};
 struct NewCommand {
   Path image, out;
   bool force = false;                 ///< also allows replacing an existing scene
@@ -116,6 +121,7 @@ void run(const RenderCommand& command);
 void run(const FarmCommand& command);
 void run(const InfoCommand& command);
 void run(const NewCommand& command);
+void run(const UpdateCommand& command);
 void run(const ExportCommand& command);
 void run(const BenchCommand& command);
 

@@ -168,8 +168,7 @@ void run(const FarmCommand& command) {
   const LoadedScene loaded = read_scene(command);
   require_keyframes(loaded.scene, command.scene);
   const FrameRange range = frames_named(command.moments.frames.value_or("all"), loaded.scene);
-  if (const Image* picture = loaded.image())
-    check_map_size(command.scale, picture->width, picture->height, 0);
+  if (const Image* picture = loaded.image()) check_map_size(command.scale, picture->page(), 0);
   const Path script = script_path(command);
   check_out(script, false, command.scene, loaded);
   if (command.film) check_out(*command.film, false, command.scene, loaded);

@@ -33,6 +33,7 @@ struct CommandLine {
   FarmCommand farm;
   InfoCommand info;
   NewCommand new_scene;
+  UpdateCommand update;
   ExportCommand exported;
   BenchCommand bench;
   FormatsCommand formats;
@@ -52,6 +53,7 @@ struct CommandLine {
   void add_farm(CLI::App& app);
   void add_info(CLI::App& app);
   void add_new(CLI::App& app);
+  void add_update(CLI::App& app);
   void add_export(CLI::App& app);
   void add_bench(CLI::App& app);
   void add_formats(CLI::App& app);
@@ -266,6 +268,17 @@ void CommandLine::add_new(CLI::App& app) {
       ->capture_default_str();
 }
 
+void CommandLine::add_update(CLI::App& app) {
+  auto* sub = add(app, "update", "Find the layers of a changed file with layers again", update);
+  add_scene(sub, update);
+  sub->add_option(
+         "--match", update.matches,
+         "BEFORE=NOW: which layer of the file a layer of the scene is now, by their names; "
+         "nothing after = if it is gone. Needed only where names and pixels do not tell")
+      ->take_all();
+  sub->add_flag("--add", update.adds, "Also add the layers that are new in the file");
+}
+
 void CommandLine::add_export(CLI::App& app) {
   auto* sub = add(app, "export", "Write the posed scene in another format", exported);
   add_scene(sub, exported);
@@ -345,6 +358,7 @@ void CommandLine::add_to(CLI::App& app) {
   add_farm(app);
   add_info(app);
   add_new(app);
+  add_update(app);
   add_export(app);
   add_formats(app);
   add_bench(app);

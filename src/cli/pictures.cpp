@@ -174,7 +174,7 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
   const VectorXc f = timed.on_mesh(frame).f;
   const std::span<const Complex> positions(f.data(), static_cast<size_t>(f.size()));
   if (format == "npy") return npy_of(positions);
-  return obj_of(timed.mesh(), positions, image ? image->width : 0, image ? image->height : 0);
+  return obj_of(timed.mesh(), positions, image ? image->page() : Box{0, 0, 0, 0});
 }
 
 /// Such as "; 2 are drawings"; empty for formats of pixels.

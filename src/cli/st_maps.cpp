@@ -71,7 +71,7 @@ void export_st_maps(const LoadedScene& loaded, const ExportCommand& command) {
   const Image none, &picture = loaded.image() ? *loaded.image() : none;
   const StMapOptions options{command.format == "unwarp-map", command.scale.value_or(1),
                              command.overscan.value_or(0), command.moments.time};
-  check_map_size(options.scale, picture.width, picture.height, options.overscan);
+  check_map_size(options.scale, picture.page(), options.overscan);
   if (command.moments.frames)
     export_frames(loaded, command, picture, options);
   else

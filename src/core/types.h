@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <span>
 #include <vector>
@@ -68,6 +69,11 @@ struct Box {
   bool contains(Complex z) const {
     return z.real() >= left && z.real() <= right && z.imag() >= bottom && z.imag() <= top;
   }
+  /// Counterclockwise from the lower left one.
+  std::array<Complex, 4> corners() const {
+    return {Complex(left, bottom), {right, bottom}, {right, top}, {left, top}};
+  }
+  bool operator==(const Box&) const = default;
 };
 
 /// The bounding box of the points.

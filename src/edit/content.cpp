@@ -24,10 +24,9 @@ Box resting_box(const Cage& cage, const Image* image) {
   if (!image) return {};
   constexpr double kOnEdge = 1e-6;  // px
   const Polygon outline = outline_of(cage);
-  const double width = image->width, height = image->height;
   Box box;
   bool stays = false;
-  for (const Complex& corner : Points{{0, 0}, {width, 0}, {width, height}, {0, height}}) {
+  for (const Complex& corner : image->page().corners()) {
     box.include(corner);
     stays = stays || outline.points.empty() ||
             (!encloses(outline, corner) && nearest_on_polygon(outline, corner).distance > kOnEdge);

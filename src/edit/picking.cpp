@@ -49,8 +49,8 @@ std::optional<Complex> rest_in_layer(const Workspace& workspace, size_t layer, C
 
 bool is_visible_at(const Image& picture, Complex rest) {
   constexpr int kLeastAlpha = 13;  // 5 % of 255
-  const int column = static_cast<int>(std::floor(rest.real())),
-            row = picture.height - 1 - static_cast<int>(std::floor(rest.imag()));
+  const int column = static_cast<int>(std::floor(rest.real())) - picture.left,
+            row = picture.top() - 1 - static_cast<int>(std::floor(rest.imag()));
   return column >= 0 && row >= 0 && column < picture.width && row < picture.height &&
          picture.at(column, row)[3] >= kLeastAlpha;
 }

@@ -59,7 +59,7 @@ Image stretched(const Image& image, int width, int height) {
   const double across = double(width) / image.width, down = double(height) / image.height;
   RasterJob job;
   job.source = &wide;
-  job.extent = Extent{width + 2 * across, height + 2 * down};
+  job.box = Box{0, 0, width + 2 * across, height + 2 * down};
   job.placement = {1, {across, down}, 0};
   job.region = Box{0, 0, double(width), double(height)};
   job.top = height;

@@ -50,7 +50,7 @@ class Drawing {
  public:
   Drawing(const RasterJob& job, double left, double top, int width, int height)
       : job_(job),
-        extent_(job.source_extent()),
+        box_(job.source_box()),
         left_(left),
         top_(top),
         scale_(job.pixels_per_unit),
@@ -133,8 +133,7 @@ class Drawing {
   }
 
   void add_surroundings() {
-    const double w = extent_.width, h = extent_.height;
-    const Complex a{0, h}, b{w, h}, c{w, 0}, d{0, 0};
+    const auto [d, c, b, a] = box_.corners();
     const double right = job_.source->width, bottom = job_.source->height;
     const double u1[3] = {0, right, right}, v1[3] = {0, 0, bottom};
     const double u2[3] = {0, right, 0}, v2[3] = {0, bottom, bottom};
@@ -150,17 +149,19 @@ class Drawing {
   }
 
   void add_triangles(const Mesh& mesh, std::span<const Complex> at) {
-    const double height = extent_.height;
     const bool heat = is_heat(job_.view);
-    const bool resized = job_.view == View::image && job_.extent;
-    const double across = resized ? job_.source->width / extent_.width : 1,
-                 down = resized ? job_.source->height / extent_.height : 1;
+    // The checker lies on the plane, and the picture in its rectangle.
+    const bool is_picture = job_.view == View::image && job_.source;
+    const bool resized = is_picture && job_.box;
+    const double across = resized ? job_.source->width / box_.width() : 1,
+                 down = resized ? job_.source->height / box_.height() : 1;
+    const double left = is_picture ? box_.left : 0;
     for (const Triangle& t : mesh.triangles) {
       double u[3], v[3];
       for (int k = 0; k < 3; ++k) {
-        u[k] =
-            heat ? heat_position(job_.scale, job_.heat[t[k]]) : across * mesh.vertices[t[k]].real();
-        v[k] = heat ? 0 : down * (height - mesh.vertices[t[k]].imag());
+        u[k] = heat ? heat_position(job_.scale, job_.heat[t[k]])
+                    : across * (mesh.vertices[t[k]].real() - left);
+        v[k] = heat ? 0 : down * (box_.top - mesh.vertices[t[k]].imag());
       }
       add_piece({at[t[0]], at[t[1]], at[t[2]]}, u, v, false);
     }
@@ -279,7 +280,7 @@ class Drawing {
     const double x = column + 0.5, y = row + 0.5;
     const double u = map.u0 + map.ux * x + map.uy * y, v = map.v0 + map.vx * x + map.vy * y;
     if (job_.view == View::checker) {
-      const double up = extent_.height - v;  // y up, as on the canvas
+      const double up = box_.top - v;  // y up, as on the canvas
       const double light = 0.5 - 0.5 * wave(u, std::abs(map.ux) + std::abs(map.uy)) *
                                      wave(up, std::abs(map.vx) + std::abs(map.vy));
       const Float4 dark{70, 90, 120, 255}, bright{235, 235, 235, 255};
@@ -386,7 +387,7 @@ class Drawing {
   }
 
   const RasterJob& job_;
-  Extent extent_;  ///< of the source
+  Box box_;  ///< of the source
   double left_, top_, scale_;
   bool is_placed_;
   Image output_;

@@ -33,15 +33,13 @@ class PictureMaker::LayerMaker {
         given_(source),
         source_(source),
         footage_(std::move(footage)) {
-    if (source) extent_ = {double(source->width), double(source->height)};
+    if (source) page_ = source->page();
   }
 
   void show(const Image& picture) {
     const auto& image = layer_.image;
     if (!source_)
-      extent_ = image && image->width > 0 && image->height > 0
-                    ? Extent{double(image->width), double(image->height)}
-                    : Extent{double(picture.width), double(picture.height)};
+      page_ = image && image->width > 0 && image->height > 0 ? image->page() : picture.page();
     source_ = &picture;
     footage_.reset();
     fringe_.reset();
@@ -98,8 +96,8 @@ class PictureMaker::LayerMaker {
     return rasterized(job);
   }
 
-  /// The size of the picture's rectangle.
-  const Extent& extent() const { return extent_; }
+  /// The rectangle of the picture, or of the canvas on which it lies.
+  const Box& page() const { return page_; }
 
   /// The undeformed picture.
   RasterResult original(const PictureOptions& options, double top) {
@@ -136,7 +134,7 @@ class PictureMaker::LayerMaker {
   }
 
   /// What determines the extent of the layer at a time, in its own plane: the positions of the
-  /// mesh, and the corners of the picture if it moves as a whole.
+  /// mesh, and the corners of the page if it moves as a whole.
   VectorXc extent_at(double time, bool with_picture) {
     VectorXc points = deformation_.has_cage() ? positions_at(time) : VectorXc();
     if (const Fringe* fringe = this->fringe()) {
@@ -146,17 +144,14 @@ class PictureMaker::LayerMaker {
       std::ranges::copy(around, points.begin() + count);
     }
     if (!with_picture || !source_) return points;
-    const auto [w, h] = extent_;
     const Index count = points.size();
     points.conservativeResize(count + 4);
-    points.tail(4) << Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h);
+    std::ranges::copy(page_.corners(), points.begin() + count);
     return points;
   }
-  void include_picture(Box& box, const Similarity& placement) const {
+  void include_page(Box& box, const Similarity& placement) const {
     if (!source_) return;
-    const auto [w, h] = extent_;
-    for (const Complex& z : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
-      box.include(placement(z));
+    for (const Complex& z : page_.corners()) box.include(placement(z));
   }
 
  private:
@@ -184,7 +179,7 @@ class PictureMaker::LayerMaker {
   RasterJob job_of(const PictureOptions& options, double top) const {
     RasterJob job;
     job.source = source_;
-    if (is_resized()) job.extent = extent_;
+    if (is_resized()) job.box = page_;
     job.view = options.view;
     job.pixels_per_unit = options.scale;
     job.region = options.region;
@@ -217,12 +212,14 @@ class PictureMaker::LayerMaker {
   std::shared_ptr<const Fringe> new_fringe() const {
     if (!is_resized()) return fringe_of(*prepared_->mesh, *source_);
     if (is_opaque(*source_)) return nullptr;  // saves resizing the frames of a film
-    return fringe_of(*prepared_->mesh, rasterized(job_of({}, extent_.height)).image);
+    RasterResult resized = rasterized(job_of({}, page_.top));
+    resized.image.left = static_cast<int>(std::lround(resized.corner.real()));
+    resized.image.bottom = static_cast<int>(std::lround(resized.corner.imag()));
+    return fringe_of(*prepared_->mesh, resized.image);
   }
 
-  bool is_resized() const {
-    return source_ && (source_->width != extent_.width || source_->height != extent_.height);
-  }
+  /// Whether the picture is shown in place of one with another page, which it then fills.
+  bool is_resized() const { return source_ && source_->page() != page_; }
 
   const Layer& layer_;
   const Deformation& deformation_;
@@ -231,7 +228,7 @@ class PictureMaker::LayerMaker {
   const Image* source_;                 ///< the picture that is drawn
   std::shared_ptr<Footage> footage_;    ///< null: the source does not move
   std::shared_ptr<const Image> frame_;  ///< the source, if it is a frame of the film
-  Extent extent_;                       ///< of the picture's rectangle
+  Box page_{0, 0, 0, 0};
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
   std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
@@ -261,14 +258,14 @@ Box PictureMaker::rectangle() const {
   Box box;
   for (size_t i = 0; i < layers_.size(); ++i)
     if (box.empty() && layers_[i]->visible())
-      layers_[i]->include_picture(box, scene_.layers[i]->placement);
+      layers_[i]->include_page(box, scene_.layers[i]->placement);
   return box;
 }
 
 PictureMaker::Frame PictureMaker::frame_of(const PictureOptions& options) const {
   Frame frame{options};
   if (options.view != View::image || !has_layers(scene_)) {
-    frame.top = layers_[scene_.edited]->extent().height;
+    frame.top = layers_[scene_.edited]->page().top;
     return frame;
   }
   const Box rectangle = this->rectangle();
@@ -364,7 +361,7 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
     return parent_of(scene_, *scene_.layers[i]) || !is_identity(scene_.layers[i]->placement);
   };
   for (size_t i = 0; i < layers_.size(); ++i)
-    if (layers_[i]->visible() && !is_moved(i)) layers_[i]->include_picture(box, {});
+    if (layers_[i]->visible() && !is_moved(i)) layers_[i]->include_page(box, {});
   for (size_t i = 0; i < layers_.size(); ++i) {
     LayerMaker& layer = *layers_[i];
     if (!layer.visible() && has_layers(scene_)) continue;

@@ -11,11 +11,10 @@ namespace {
 
 /// A rectangle of whole output pixels.
 struct PixelRect {
-  int left, top, width, height;  ///< top is measured downward from the source's top
+  int left, top, width, height;  ///< top is measured downward from the page's top
 };
 
-/// Removes transparent rows and columns at the borders, but keeps all of `least`, the source's
-/// rectangle.
+/// Removes transparent rows and columns at the borders, but keeps all of `least`, the page.
 void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   const auto row_empty = [&](int r) {
     for (int c = 0; c < image.width; ++c)
@@ -44,21 +43,20 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   frame = {frame.left + left, frame.top + top, image.width, image.height};
 }
 
-/// The bounding box of the source's rectangle where the job places it.
-Box placed_rectangle(const RasterJob& job) {
-  const auto [w, h] = job.source_extent();
+/// The bounding box of the page where the job places it.
+Box placed_page(const RasterJob& job) {
   Box box;
-  for (const Complex& corner : {Complex(0, 0), Complex(w, 0), Complex(w, h), Complex(0, h)})
-    box.include(job.placement(corner));
+  for (const Complex& corner : job.page().corners()) box.include(job.placement(corner));
   return box;
 }
 
-/// The bounding box of the source rectangle's image under the map, computed from the mesh vertices
-/// inside the rectangle and the points where mesh edges cross its border.
-Box image_of_rectangle(const RasterJob& job, const Mesh& mesh, std::span<const Complex> at) {
-  const double w = job.source_extent().width, h = job.source_extent().height;
+/// The bounding box of the page's image under the map, computed from the mesh vertices on the page
+/// and the points where mesh edges cross its border.
+Box image_of_page(const RasterJob& job, const Mesh& mesh, std::span<const Complex> at) {
+  const Box page = job.page();
   const auto depth = [&](Complex z) {
-    return std::array{z.real(), w - z.real(), z.imag(), h - z.imag()};
+    return std::array{z.real() - page.left, page.right - z.real(), z.imag() - page.bottom,
+                      page.top - z.imag()};
   };
   Box box;
   for (const Triangle& t : mesh.triangles)
@@ -89,8 +87,9 @@ RasterResult rasterized(const RasterJob& job) {
   const double scale = job.pixels_per_unit;
   if (!(scale > 0) || !std::isfinite(scale))
     throw Error(ErrorKind::bad_input, "the scale must be a positive number");
-  const double width = job.source_extent().width, height = job.source_extent().height;
-  const double top_edge = job.top.value_or(height);
+  const Box page = job.page();
+  const double width = page.width(), height = page.height();
+  const double top_edge = job.top.value_or(page.top);
   constexpr double kLargest = 16384;
   const auto check_size = [&](double width, double height) {
     if (!(width <= kLargest && height <= kLargest))
@@ -102,13 +101,17 @@ RasterResult rasterized(const RasterJob& job) {
   constexpr double kRounding = 1e-3;  // tolerance for single-precision operators
   PixelRect least{0, 0, 0, 0};
   if (job.source) {
-    const int top = static_cast<int>(std::floor((top_edge - height) * scale));
-    least = {0, top, std::max(1, static_cast<int>(std::lround(width * scale))),
-             top_edge == height ? std::max(1, static_cast<int>(std::lround(height * scale)))
-                                : static_cast<int>(std::ceil(top_edge * scale)) - top};
+    const int left = static_cast<int>(std::floor(page.left * scale)),
+              top = static_cast<int>(std::floor((top_edge - page.top) * scale));
+    least = {left, top,
+             page.left == 0 ? std::max(1, static_cast<int>(std::lround(width * scale)))
+                            : static_cast<int>(std::ceil(page.right * scale)) - left,
+             top_edge == page.top
+                 ? std::max(1, static_cast<int>(std::lround(height * scale)))
+                 : static_cast<int>(std::ceil((top_edge - page.bottom) * scale)) - top};
   }
   std::optional<Box> region = job.region;
-  if (job.source && !region && !is_identity(job.placement)) region = placed_rectangle(job);
+  if (job.source && !region && !is_identity(job.placement)) region = placed_page(job);
   if (region) {
     const Box& box = *region;
     const double slack = job.region ? 0 : kRounding;
@@ -130,11 +133,11 @@ RasterResult rasterized(const RasterJob& job) {
   if (job.mesh && !job.region && !(job.crop && job.source)) {
     Box box;
     if (job.source)
-      box = image_of_rectangle(job, *job.mesh, job.positions);
+      box = image_of_page(job, *job.mesh, job.positions);
     else
       for (const Complex& z : job.positions) box.include(job.placement(z));
     if (job.source && job.fringe) {
-      const Box around = image_of_rectangle(job, *job.fringe, job.fringe_positions);
+      const Box around = image_of_page(job, *job.fringe, job.fringe_positions);
       if (!around.empty()) {
         box.include({around.left, around.bottom});
         box.include({around.right, around.top});

@@ -10,11 +10,6 @@
 
 namespace holomorph {
 
-/// The size of a picture's rectangle in the plane.
-struct Extent {
-  double width = 0, height = 0;
-};
-
 /// What to draw. The mesh's vertices move to `positions`; `source` is sampled once, at rest
 /// coordinates. The picture outside the rest cage does not move.
 struct RasterJob {
@@ -25,24 +20,24 @@ struct RasterJob {
   const Mesh* fringe = nullptr;
   std::span<const Complex> fringe_positions;
   const Image* source = nullptr;  ///< may be null for heat maps and checkers
-  std::optional<Extent> extent;   ///< of the source; if not set, a pixel is one unit wide
+  /// The rectangle that the source fills; if not set, that of its pixels, each one unit wide.
+  std::optional<Box> box;
   View view = View::image;
   Eigen::VectorXd heat;  ///< one value per mesh vertex, for heat views
   HeatScale scale;
   double pixels_per_unit = 1;  ///< output pixels per unit of the plane
   bool surroundings = true;    ///< also draw the source outside the rest cage
   Similarity placement = {};   ///< moves everything that is drawn
-  bool crop = false;           ///< crop to the source's rectangle; otherwise crop nothing
+  bool crop = false;           ///< crop to the source's page; otherwise crop nothing
   std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
-  std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the source's top
+  std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the page's top
   bool fine = false;           ///< the result has fine pixels
   int threads = 0;             ///< if 0, one per processor core
 
-  /// The size of the source's rectangle; zero without a source.
-  Extent source_extent() const {
-    if (!source) return {};
-    return extent.value_or(Extent{double(source->width), double(source->height)});
-  }
+  /// The rectangle of the source in the plane; zero without a source.
+  Box source_box() const { return source ? box.value_or(source->box()) : Box{0, 0, 0, 0}; }
+  /// The rectangle that the result shows even where the source is transparent.
+  Box page() const { return source ? box.value_or(source->page()) : Box{0, 0, 0, 0}; }
 };
 
 /// A picture and the position of its lower left corner in the plane.

@@ -219,8 +219,11 @@ class StMapDrawing {
 
   /// The opacity of the picture at a position, from 0 to 255.
   int opacity_at(const float* st) const {
-    const double x = std::floor(static_cast<double>(st[0]) * picture_->width),
-                 y = std::floor((1 - static_cast<double>(st[1])) * picture_->height);
+    const Box page = picture_->page();
+    const double x = std::floor(static_cast<double>(st[0]) * page.width()) -
+                     (picture_->left - page.left),
+                 y = std::floor((1 - static_cast<double>(st[1])) * page.height()) -
+                     (page.top - picture_->top());
     if (!(x >= 0 && x < picture_->width && y >= 0 && y < picture_->height)) return 0;
     return picture_->at(static_cast<int>(x), static_cast<int>(y))[3];
   }
@@ -240,11 +243,12 @@ class StMapDrawing {
 
 }  // namespace
 
-void check_map_size(double scale, int width, int height, int overscan) {
+void check_map_size(double scale, const Box& page, int overscan) {
   constexpr double kMost = 16384;
-  if (width <= 0 || height <= 0)
+  if (page.width() <= 0 || page.height() <= 0)
     throw Error(ErrorKind::bad_input, "the scene has no picture to map");
-  if (!(scale > 0) || overscan < 0 || !(std::max(width, height) * scale + 2.0 * overscan <= kMost))
+  if (!(scale > 0) || overscan < 0 ||
+      !(std::max(page.width(), page.height()) * scale + 2.0 * overscan <= kMost))
     throw Error(ErrorKind::bad_input,
                 "the scale must be above 0, and the result at most 16384 pixels on a side, "
                 "including the overscan");
@@ -252,13 +256,14 @@ void check_map_size(double scale, int width, int height, int overscan) {
 
 StMap st_map_of(TimedMap& map, const Image& picture, const StMapOptions& options,
                 const RowProgress& progress) {
-  check_map_size(options.scale, picture.width, picture.height, options.overscan);
-  const auto side = [&](int pixels) {
+  const Box page = picture.page();
+  check_map_size(options.scale, page, options.overscan);
+  const auto side = [&](double pixels) {
     return std::max(1, static_cast<int>(std::lround(pixels * options.scale))) +
            2 * options.overscan;
   };
-  StMap result{side(picture.width), side(picture.height), options.overscan, {}, {}};
-  const double width = picture.width, height = picture.height,
+  StMap result{side(page.width()), side(page.height()), options.overscan, {}, {}};
+  const double width = page.width(), height = page.height(),
                across = (result.width - 2 * options.overscan) / width,
                down = (result.height - 2 * options.overscan) / height;
   const FineMap fine = map.fine(map.frame(options.time), kStAccuracy / std::max(across, down),
@@ -266,14 +271,14 @@ StMap st_map_of(TimedMap& map, const Image& picture, const StMapOptions& options
   const auto placed = [&](std::span<const Complex> points) {
     Points at;
     for (const Complex& z : points)
-      at.emplace_back(z.real() * across + options.overscan,
-                      (height - z.imag()) * down + options.overscan);
+      at.emplace_back((z.real() - page.left) * across + options.overscan,
+                      (page.top - z.imag()) * down + options.overscan);
     return at;
   };
   const Points& rest = fine.mesh.vertices;
   DrawnMesh drawn{fine.mesh.triangles, placed(options.unwarps ? rest : fine.f), {}};
   for (const Complex& z : options.unwarps ? fine.f : rest)
-    drawn.values.push_back({z.real() / width, z.imag() / height});
+    drawn.values.push_back({(z.real() - page.left) / width, (z.imag() - page.bottom) / height});
   // What leaves its position shows nothing. The fine mesh follows curves, but lacks the triangles
   // with images that are not finite.
   std::vector<DrawnMesh> meshes;

@@ -57,8 +57,8 @@ void extend(StMap& map);
 /// Blue is the coverage, too, because Blender's node Map UV takes it from there.
 FloatImage float_image_of(StMap map);
 
-/// Throws Error if the picture is empty, the scale is not above 0, the overscan is negative, or the
-/// result has more than 16384 pixels on a side.
-void check_map_size(double scale, int width, int height, int overscan = 0);
+/// Throws Error if the page of the picture is empty, the scale is not above 0, the overscan is
+/// negative, or the result has more than 16384 pixels on a side.
+void check_map_size(double scale, const Box& page, int overscan = 0);
 
 }  // namespace holomorph

@@ -12,7 +12,7 @@ Image unwarped(const Scene& scene, const Image* picture, double scale, std::opti
                const RowProgress& progress) {
   if (!picture)
     throw Error(ErrorKind::bad_input, "there is nothing to unwarp: the scene has no picture");
-  check_map_size(scale, picture->width, picture->height);
+  check_map_size(scale, picture->page());
   TimedMap timed(scene);
   FineMap fine =
       timed.fine(timed.frame(time), kStAccuracy / scale, [&] { progress(0, picture->height); });

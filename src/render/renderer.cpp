@@ -80,12 +80,14 @@ struct Renderer::Objects {
   std::array<std::unique_ptr<const Program>, kColorings> programs;
   const Program* program = nullptr;  ///< in use
   std::array<float, 9> to_clip{};    ///< from the plane, by columns
-  GLuint vertex_array = 0, quad_array = 0, ghost_array = 0, fringe_array = 0;
-  GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, matrix = 0, controls = 0,
-         feedback = 0, ghost = 0, fringe_rest = 0, fringe_position = 0, fringe_triangles = 0;
+  GLuint vertex_array = 0, quad_array = 0, page_array = 0, ghost_array = 0, fringe_array = 0;
+  GLuint rest = 0, position = 0, value = 0, triangles = 0, quad = 0, page_quad = 0, matrix = 0,
+         controls = 0, feedback = 0, ghost = 0, fringe_rest = 0, fringe_position = 0,
+         fringe_triangles = 0;
   GLuint picture = 0, sequential = 0, diverging = 0, matrix_texture = 0, controls_texture = 0;
   GLsizei index_count = 0, vertex_count = 0, fringe_index_count = 0, fringe_vertex_count = 0;
-  double width = 0, height = 0;                 ///< size of the picture, in plane units
+  double width = 0, height = 0;                 ///< size of the picture; 0: there is none
+  Box place, page;                              ///< of the picture, in the plane
   std::shared_ptr<const TextureLevels> levels;  ///< kept until all of them are uploaded
   bool stored = false;                          ///< storage for all levels is allocated
   int level = 0, row = 0;                       ///< progress of the upload
@@ -114,8 +116,7 @@ struct Renderer::Objects {
     glUseProgram(program->id());
     glUniform1f(at("margin"), 0);
     glUniformMatrix3fv(at("to_clip"), 1, GL_FALSE, to_clip.data());
-    glUniform2f(at("picture_size"), static_cast<float>(std::max(width, 1.0)),
-                static_cast<float>(std::max(height, 1.0)));
+    set_rectangle(width > 0 ? place : Box{0, 0, 1, 1});
     glUniform1i(at("picture"), kPicture);
     glUniform1i(at("colors"), kColors);
     glUniform1i(at("operator_matrix"), kMatrix);
@@ -123,6 +124,12 @@ struct Renderer::Objects {
     glUniform1i(at("column_count"), columns);
     glUniform1i(at("row_count"), vertex_count);
     glUniform4f(at("flat_color"), flat[0], flat[1], flat[2], alpha);
+  }
+  void set_rectangle(const Box& box) const {
+    glUniform2f(at("rectangle_corner"), static_cast<float>(box.left),
+                static_cast<float>(box.bottom));
+    glUniform2f(at("rectangle_size"), static_cast<float>(box.width()),
+                static_cast<float>(box.height()));
   }
   /// Draws the mesh in the coloring that was set by color().
   void draw_mesh(Placement placement) const {
@@ -144,10 +151,15 @@ struct Renderer::Objects {
       glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
     }
   }
-  /// Draws the picture's rectangle.
-  void draw_quad() const {
+  /// Draws the picture's rectangle, or that of its page.
+  void draw_quad() const { draw_rectangle(quad_array); }
+  void draw_page_quad() const {
+    set_rectangle(page);
+    draw_rectangle(page_array);
+  }
+  void draw_rectangle(GLuint array) const {
     glUniform1i(at("mode"), mode_of(Placement::at_rest));
-    glBindVertexArray(quad_array);
+    glBindVertexArray(array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
 
@@ -158,13 +170,13 @@ struct Renderer::Objects {
       color(Coloring::shadow, {}, frame.shadow_alpha);
       glUniform1f(at("softness"), static_cast<float>(softness));
       glUniform1f(at("margin"), static_cast<float>(4 * softness));
-      draw_quad();
+      draw_page_quad();
     }
     color(Coloring::page, frame.backdrop);
     const Color& other = frame.other_backdrop;
     glUniform4f(at("other_color"), other[0], other[1], other[2], 1);
     glUniform1f(at("cell_size"), static_cast<float>(frame.cell / frame.zoom));
-    draw_quad();
+    draw_page_quad();
   }
   /// Draws the picture outside the rest cage.
   void draw_surroundings(Placement placement) {
@@ -200,15 +212,16 @@ Renderer::Renderer() {
                                        std::to_string(epoxy_gl_version() % 10));
   gl_ = std::make_unique<Objects>();
   Objects& gl = *gl_;
-  for (GLuint* buffer :
-       {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.matrix, &gl.controls,
-        &gl.feedback, &gl.ghost, &gl.fringe_rest, &gl.fringe_position, &gl.fringe_triangles})
+  for (GLuint* buffer : {&gl.rest, &gl.position, &gl.value, &gl.triangles, &gl.quad, &gl.page_quad,
+                         &gl.matrix, &gl.controls, &gl.feedback, &gl.ghost, &gl.fringe_rest,
+                         &gl.fringe_position, &gl.fringe_triangles})
     glGenBuffers(1, buffer);
   for (GLuint* texture :
        {&gl.picture, &gl.sequential, &gl.diverging, &gl.matrix_texture, &gl.controls_texture})
     glGenTextures(1, texture);
   glGenVertexArrays(1, &gl.vertex_array);
   glGenVertexArrays(1, &gl.quad_array);
+  glGenVertexArrays(1, &gl.page_array);
   glGenVertexArrays(1, &gl.ghost_array);
   glGenVertexArrays(1, &gl.fringe_array);
 
@@ -231,6 +244,8 @@ Renderer::Renderer() {
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.fringe_triangles);
   glBindVertexArray(gl.quad_array);
   attribute(gl.quad, 0, 2);
+  glBindVertexArray(gl.page_array);
+  attribute(gl.page_quad, 0, 2);
   glBindVertexArray(0);
 
   for (const bool diverging : {false, true}) {
@@ -255,6 +270,7 @@ Renderer::~Renderer() {
     glDeleteTextures(1, &texture);
   glDeleteVertexArrays(1, &gl.vertex_array);
   glDeleteVertexArrays(1, &gl.quad_array);
+  glDeleteVertexArrays(1, &gl.page_array);
   glDeleteVertexArrays(1, &gl.ghost_array);
   glDeleteVertexArrays(1, &gl.fringe_array);
 }
@@ -308,9 +324,21 @@ void Renderer::begin_picture(std::shared_ptr<const TextureLevels> levels) {
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
     glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
   }
-  const float right = static_cast<float>(gl.width), top = static_cast<float>(gl.height);
-  const float corners[] = {0, 0, right, 0, 0, top, right, top};
-  upload(gl.quad, GL_ARRAY_BUFFER, corners, sizeof corners, GL_STATIC_DRAW);
+  const Box place{0, 0, gl.width, gl.height};
+  place_picture(place, place);
+}
+
+void Renderer::place_picture(const Box& picture, const Box& page) {
+  Objects& gl = *gl_;
+  gl.place = picture;
+  gl.page = page;
+  for (const auto& [buffer, box] : {std::pair(gl.quad, picture), {gl.page_quad, page}}) {
+    const auto single = [](double x) { return static_cast<float>(x); };
+    const float left = single(box.left), right = single(box.right), bottom = single(box.bottom),
+                top = single(box.top);
+    const float corners[] = {left, bottom, right, bottom, left, top, right, top};
+    upload(buffer, GL_ARRAY_BUFFER, corners, sizeof corners, GL_STATIC_DRAW);
+  }
 }
 
 bool Renderer::upload_more(size_t bytes) {

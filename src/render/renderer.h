@@ -69,6 +69,9 @@ class Renderer {
   /// Sets the picture: straight-alpha RGBA, rows from the top; 0 x 0 removes it. Returns the factor
   /// by which the picture was reduced for this driver, or 1 if it was not reduced.
   int set_picture(int width, int height, const std::uint8_t* pixels);
+  /// Sets where the picture lies in the plane, and the rectangle that is drawn behind it. Pictures
+  /// are set with their lower left corner at the origin, and with that rectangle their own.
+  void place_picture(const Box& picture, const Box& page);
   /// Starts setting the picture in steps, which avoids delaying a frame. After the first call of
   /// upload_more, the picture is coarse; further calls add detail. Null removes the picture.
   void begin_picture(std::shared_ptr<const TextureLevels> levels);

@@ -19,8 +19,10 @@ namespace holomorph {
 namespace {
 
 Points rectangle(const Image& image, double margin) {
-  const double right = image.width + margin, top = image.height + margin;
-  return {{-margin, -margin}, {right, -margin}, {right, top}, {-margin, top}};
+  const Box page = image.page();
+  const auto [left, bottom, right, top] =
+      Box{page.left - margin, page.bottom - margin, page.right + margin, page.top + margin};
+  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
 }
 
 // Distances between the centers of cells. Level curves cut off corners, so that whole cells are

@@ -97,13 +97,13 @@ std::vector<Box> parts_outside(const Image& image, const Cage& cage) {
       const int label = parts.label(c, r);
       if (label < 0 || kSpeck * parts.sizes[static_cast<size_t>(label)] < parts.sizes[0]) continue;
       const size_t part = static_cast<size_t>(label);
-      const double top = image.height - r;
-      boxes[part].include(Complex(c, top - 1));
-      boxes[part].include(Complex(c + 1, top));
+      const double left = image.left + c, top = image.top() - r;
+      boxes[part].include(Complex(left, top - 1));
+      boxes[part].include(Complex(left + 1, top));
       constexpr size_t kMost = 100;  // pixels of a part that are looked at
       if (seen[part]++ % (1 + parts.sizes[part] / kMost) != 0) continue;
       ++looked_at[part];
-      inside[part] += encloses(outline, Complex(c + 0.5, top - 0.5));
+      inside[part] += encloses(outline, Complex(left + 0.5, top - 0.5));
     }
   std::vector<Box> found;
   for (size_t part = 0; part < boxes.size(); ++part)

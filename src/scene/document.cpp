@@ -124,6 +124,38 @@ void Document::describe_films() {
   history_.replace(std::move(described));
 }
 
+std::vector<Layer> Document::layers_of_file(const std::string& file) const {
+  std::vector<Layer> all;
+  for (const History::Entry& entry : history_.entries())
+    for (const SharedLayer& layer : entry.scene.layers)
+      if (layer->image && layer->image->file == file && !layer->image->entry.empty() &&
+          std::ranges::none_of(all,
+                               [&](const Layer& other) { return *other.image == *layer->image; })) {
+        Layer known;  // without its deformation
+        known.name = layer->name;
+        known.image = layer->image;
+        all.push_back(std::move(known));
+      }
+  return all;
+}
+
+void Document::update_layers(const LayerUpdate& update) {
+  const auto updated = [&](const Scene& scene) {
+    Scene result = scene;
+    std::vector<Layer> layers = layers_of(scene);
+    for (Layer& layer : layers) {
+      if (!layer.image || layer.image->file != update.file) continue;
+      update.apply(layer);
+      if (const Picture* picture = pictures_.find(*layer.image); picture && picture->mark)
+        layer.image = described(*layer.image, *picture);
+    }
+    result.layers = shared(std::move(layers));
+    return result;
+  };
+  history_.revise_all(updated);
+  saved_ = updated(saved_);
+}
+
 namespace {
 
 /// The scene with references updated to the pictures in memory. Copies pasted pictures to files

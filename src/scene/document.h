@@ -73,6 +73,11 @@ class Document {
   }
   /// Updates the clips of layers to the films that are stored. This is not a step of the history.
   void describe_films();
+  /// The layers of all steps of the history that show a layer of this file.
+  std::vector<Layer> layers_of_file(const std::string& file) const;
+  /// Finds the layers of a file again in all steps of the history. Their pictures must be stored
+  /// already. This is not a step of the history.
+  void update_layers(const LayerUpdate& update);
   /// Stores all pictures of another scene.
   void add_pictures(const Pictures& pictures) { pictures_.add(pictures); }
   /// Allows reading the files that are out of reach.

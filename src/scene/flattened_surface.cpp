@@ -61,12 +61,13 @@ FlattenedSurface flattened_surface_of(const Deformation& deformation) {
   }
 }
 
-Points texture_boundary(const SurfaceFile& file, int width, int height) {
+Points texture_boundary(const SurfaceFile& file, const Box& page) {
   const std::vector<int> loop = disk_boundary(file.surface);
   if (file.texture.empty())
     throw Error(ErrorKind::bad_input, "the surface has no texture coordinates");
   Points boundary = along(loop, file.texture);
-  for (Complex& z : boundary) z = {z.real() * width, z.imag() * height};
+  for (Complex& z : boundary)
+    z = {page.left + z.real() * page.width(), page.bottom + z.imag() * page.height()};
   return boundary;
 }
 

@@ -30,9 +30,9 @@ FlattenedSurface aligned_with_outline(FlattenedSurface laid, const Points& outli
 /// boundary.
 FlattenedSurface flattened_surface_of(const Deformation& deformation);
 
-/// The boundary of a surface's texture coordinates in a picture of this size. It is a cage around
-/// the part of the picture used by the texture. Throws Error if the surface has no texture
+/// The boundary of a surface's texture coordinates on a page. It is a cage around the part of the
+/// picture used by the texture. Throws Error if the surface has no texture
 /// coordinates or is not a disk.
-Points texture_boundary(const SurfaceFile& file, int width, int height);
+Points texture_boundary(const SurfaceFile& file, const Box& page);
 
 }  // namespace holomorph

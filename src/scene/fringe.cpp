@@ -40,7 +40,7 @@ std::optional<Box> faint_box(PolygonView polygon, const Image& picture,
   std::vector<double> crossings;
   for (int row = 0; row < picture.height; ++row) {
     if (!keep_going()) return std::nullopt;
-    const double y = picture.height - row - 0.5;
+    const double y = picture.top() - row - 0.5;
     crossings.clear();
     for (const auto& [a, b] : edges)
       if ((a.imag() <= y) != (b.imag() <= y))
@@ -50,15 +50,17 @@ std::optional<Box> faint_box(PolygonView polygon, const Image& picture,
     crossings.push_back(1e300);
     // The outside lies before the first crossing, between the second and the third, and so on.
     const auto column = [&](double x) {
-      return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, double(picture.width)));
+      return static_cast<int>(
+          std::clamp(std::ceil(x - picture.left - 0.5), 0.0, double(picture.width)));
     };
     int first = 0;
     for (size_t i = 0; i < crossings.size(); i += 2) {
       for (int c = first, end = column(crossings[i]); c < end; ++c) {
         const int alpha = picture.at(c, row)[3];
-        if (alpha >= solid && nearest_on_polygon(polygon, {c + 0.5, y}).distance > reach)
+        const Complex center(picture.left + c + 0.5, y);
+        if (alpha >= solid && nearest_on_polygon(polygon, center).distance > reach)
           return std::nullopt;
-        if (alpha > 0) box.include({c + 0.5, y});
+        if (alpha > 0) box.include(center);
       }
       first = i + 1 < crossings.size() ? column(crossings[i + 1]) : picture.width;
     }
@@ -131,10 +133,10 @@ bool shows_something(const Image& picture, const std::array<Complex, 3>& corners
   const auto clamped = [](double value, int size) {
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
   };
-  const int left = clamped(std::floor(box.left) - 1, picture.width),
-            right = clamped(std::ceil(box.right) + 1, picture.width),
-            top = clamped(std::floor(picture.height - box.top) - 1, picture.height),
-            bottom = clamped(std::ceil(picture.height - box.bottom) + 1, picture.height);
+  const int left = clamped(std::floor(box.left - picture.left) - 1, picture.width),
+            right = clamped(std::ceil(box.right - picture.left) + 1, picture.width),
+            top = clamped(std::floor(picture.top() - box.top) - 1, picture.height),
+            bottom = clamped(std::ceil(picture.top() - box.bottom) + 1, picture.height);
   for (int row = top; row < bottom; ++row)
     for (int column = left; column < right; ++column)
       if (picture.at(column, row)[3] > 0) return true;

@@ -1,6 +1,7 @@
 // Undo by snapshots. Each drag adds one snapshot, taken when the mouse button is released.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@ class History {
         revised.deformation = to;
         entry.scene.layers[i] = SharedLayer(std::move(revised));
       }
+  }
+  /// Replaces all scenes by equivalent ones.
+  void revise_all(const std::function<Scene(const Scene&)>& revised) {
+    for (Entry& entry : entries_) entry.scene = revised(entry.scene);
   }
   bool undo() { return index_ > 0 && (--index_, true); }
   bool redo() { return index_ + 1 < entries_.size() && (++index_, true); }

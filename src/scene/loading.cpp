@@ -1,6 +1,8 @@
 // Paths in a scene file are relative to the file's folder. In memory, all paths are absolute.
 #include "scene/loading.h"
 
+#include <set>
+
 #include "core/error.h"
 #include "scene/budget.h"
 #include "scene/clips.h"
@@ -81,8 +83,14 @@ std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, 
 }  // namespace
 
 std::string LoadedScene::message(size_t lines) const {
-  const std::string changes = report.text(lines);
-  return warning + (warning.empty() || changes.empty() ? "" : "\n") + changes;
+  std::string all = warning;
+  const auto add = [&](const ImportReport& each) {
+    const std::string text = each.text(lines);
+    all += (all.empty() || text.empty() ? "" : "\n") + text;
+  };
+  add(report);
+  for (const LayerUpdate& update : updates) add(update.report);
+  return all;
 }
 
 std::string read_scene_file(const Path& path) {
@@ -128,6 +136,70 @@ void withhold_unreachable(std::vector<Layer>& layers, const Path& scene, const L
 
 }  // namespace
 
+namespace {
+
+/// What to say about the first layer of an update that is unclear.
+std::string question_of(const LayerUpdate& update) {
+  const UnclearLayer& unclear = update.unclear[0];
+  std::string text = update.report.file + ": the file has changed, and the layer '" + unclear.name +
+                     "' may now be ";
+  constexpr size_t kMostNamed = 5;
+  const size_t named = std::min(unclear.candidates.size(), kMostNamed);
+  for (size_t i = 0; i < named; ++i)
+    text += (i == 0 ? "'" : i + 1 == named ? " or '" : ", '") + unclear.candidates[i].name + "'";
+  return text + "; use holomorph update with --match '" + unclear.name +
+         "=NAME', or with no name after = if it is none of them";
+}
+
+/// The choices about the layers of one file.
+LayerChoices choices_for(const std::string& file, std::span<const Layer> layers,
+                         const LayerChoices& choices) {
+  LayerChoices result;
+  std::ranges::copy_if(choices, std::back_inserter(result), [&](const auto& choice) {
+    return std::ranges::any_of(layers, [&](const Layer& layer) {
+      return layer.image && layer.image->file == file &&
+             (layer.image->entry == choice.first || name_in_file(layer) == choice.first);
+    });
+  });
+  return result;
+}
+
+void check_choices(std::span<const Layer> layers, const std::set<std::string>& files,
+                   const LayerChoices& choices) {
+  for (const auto& choice : choices)
+    if (std::ranges::none_of(files, [&](const std::string& file) {
+          return !choices_for(file, layers, {choice}).empty();
+        }))
+      throw Error(ErrorKind::bad_input,
+                  "the scene has no layer of a file with the name '" + choice.first + "'");
+}
+
+/// Finds the layers of the files that have changed.
+void update_layers(std::vector<Layer>& layers, const LoadOptions& options, PictureFiles& files,
+                   LoadedScene& loaded) {
+  std::set<std::string> names;
+  for (const Layer& layer : layers)
+    if (layer.image && !layer.image->entry.empty()) names.insert(layer.image->file);
+  check_choices(layers, names, options.choices);
+  for (const std::string& name : names) {
+    if (loaded.pictures.withheld().contains(name) || !path_exists(name)) continue;
+    try {
+      const LayerChoices choices = choices_for(name, layers, options.choices);
+      if (choices.empty() && !needs_layer_update(layers, name, files)) continue;
+      LayerUpdate update = layer_update(layers, name, files, choices);
+      if (!update.unclear.empty() && !options.pictures_may_be_missing)
+        throw Error(ErrorKind::bad_input, question_of(update));
+      for (Layer& layer : layers) update.apply(layer);
+      loaded.updates.push_back(std::move(update));
+    } catch (const Error&) {
+      if (!options.pictures_may_be_missing) throw;
+      // Its layers will be missing, with a warning.
+    }
+  }
+}
+
+}  // namespace
+
 LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadOptions& options) {
   LoadedScene loaded;
   loaded.sha256 = sha256_hex(text);
@@ -141,7 +213,12 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
   }
   for_each_file(layers, [&](std::string& file) { file = resolved_path(path, file).string(); });
   withhold_unreachable(layers, path, options, files, loaded.pictures);
+  update_layers(layers, options, files, loaded);
   for (size_t i = 0; i < layers.size(); ++i) {
+    if (std::ranges::any_of(loaded.updates, [&](const LayerUpdate& update) {
+          return update.is_unclear(layers[i]);
+        }))
+      continue;
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
     const std::string warning =
@@ -192,10 +269,9 @@ void check_may_write(const Path& out, const Sources& sources) {
 
 namespace {
 
-/// A layer with a picture from a file.
-Layer layer_of_picture(const Path& file, const std::string& entry, PictureFiles& files,
-                       Pictures& pictures) {
-  const ImageReference reference = reference_in(file, entry);
+/// A layer with the picture from a file.
+Layer layer_of_picture(const Path& file, PictureFiles& files, Pictures& pictures) {
+  const ImageReference reference = reference_in(file);
   Picture picture = files.picture(reference);
   Layer layer;
   layer.image = described(reference, picture);
@@ -242,7 +318,7 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
   FileLayers in_file = layers_in(path);
   loaded.report = std::move(in_file.report);
   if (in_file.layers.empty()) {
-    loaded.scene = scene_of(layer_of_picture(path, "", files, loaded.pictures));
+    loaded.scene = scene_of(layer_of_picture(path, files, loaded.pictures));
     loaded.report.add(report_of_picture(path));
     if (const Clip* clip = clip_of(loaded.scene.layer()))
       loaded.scene.animation.frames_per_second = clip->frames_per_second;
@@ -251,19 +327,10 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
       loaded.scene.background.fill = Background::Fill::original;
     return loaded;
   }
-  check_budget(&Budget::pixels,
-               1.0 * in_file.width * in_file.height * static_cast<double>(in_file.layers.size()),
-               path.string() + ": the layers have");
   std::vector<Layer> layers;
   for (const FileLayer& each : in_file.layers) {
-    Layer layer = layer_of_picture(path, each.entry, files, loaded.pictures);
-    layer.id = static_cast<int>(layers.size()) + 1;
-    layer.name = each.name;
-    layer.visible = each.visible;
-    layer.opacity = each.opacity;
-    layer.blending = each.blending;
-    layer.clipped = each.clipped;
-    layers.push_back(std::move(layer));
+    layers.push_back(layer_in_file(path, each, {}, files, loaded.pictures));
+    layers.back().id = static_cast<int>(layers.size());
   }
   size_t edited = layers.size() - 1;
   while (edited > 0 && !layers[edited].visible) --edited;
@@ -307,9 +374,7 @@ LoadedScene scene_of_surface(const Path& obj, const Reach& reach) {
   LoadedScene loaded =
       scene_of_image(in_reach(resolved_path(resolved_path(obj, file.materials), texture)));
   try {
-    const Image& texture_image = *loaded.image();
-    Deformation deformation =
-        with_cage({}, texture_boundary(file, texture_image.width, texture_image.height));
+    Deformation deformation = with_cage({}, texture_boundary(file, loaded.image()->page()));
     check_rest_cage(deformation.rest);
     loaded.scene = with_deformation(std::move(loaded.scene), std::move(deformation));
   } catch (const Error& error) {

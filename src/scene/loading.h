@@ -1,9 +1,8 @@
 // Loads scenes, pictures and surfaces from disk, along with all files that they refer to.
 #pragma once
 
-#include "scene/formats/import_report.h"
+#include "scene/layer_update.h"
 #include "scene/layers.h"
-#include "scene/pictures.h"
 #include "scene/reach.h"
 #include "system/file.h"
 
@@ -15,7 +14,9 @@ struct LoadedScene {
   Pictures pictures;
   std::string warning;  ///< for example, that a picture has changed since the scene was saved
   ImportReport report;  ///< what opening a picture has changed
-  std::string sha256;   ///< hash of the scene's text
+  /// How the layers of changed files were found again.
+  std::vector<LayerUpdate> updates;
+  std::string sha256;  ///< hash of the scene's text
 
   /// The warning and the first lines of the report, for people; empty if there is nothing to say.
   std::string message(size_t lines = ~size_t{0}) const;
@@ -32,9 +33,11 @@ struct LoadOptions {
   Reach reach = {};
   double open_pixels = 0;     ///< number of pixels in pictures that are already open
   bool keeps_origin = false;  ///< keep the origin recorded in an autosave
+  LayerChoices choices = {};  ///< for layers of changed files that may be one of several
 };
 /// Reads a scene file and the pictures that it names by paths relative to the file's folder. Looks
-/// for missing pictures next to the scene file. Throws Error.
+/// for missing pictures next to the scene file, and for the layers of files that have changed.
+/// Throws Error, also for layers that may be one of several, unless pictures may be missing.
 LoadedScene load_scene(const Path& path, const LoadOptions& options = {});
 /// Reads a scene from the given text instead of the file's content.
 LoadedScene scene_of_text(const std::string& text, const Path& path,

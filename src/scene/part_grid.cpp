@@ -255,7 +255,7 @@ std::vector<PartGrid> part_grids(const Image& image, PartChoice choice, double f
         others(c, r) = content(column, row) && !rivals(c, r);
       }
     grids.push_back({distance_field(own), std::move(others), distance_field(rivals), scale, left,
-                     top, border, image.height, size});
+                     top, border, Complex(image.left, image.top()), size});
   }
   return grids;
 }

@@ -15,12 +15,12 @@ struct PartGrid {
   Grid<float> to_rivals;      ///< the distance to the nearest other part with a cage, or 1e10
   int scale, left, top;       ///< where the picture's first cell is on the grid
   int border;                 ///< empty cells at each side, at least
-  int height;                 ///< of the picture, in pixels
+  Complex upper_left;         ///< corner of the picture in its plane
   double size;                ///< diagonal of the part's box
 
   /// From cells to the picture's plane, y up.
   Complex in_picture(Complex z) const {
-    return {(z.real() - left + 0.5) * scale, height + (z.imag() + top - 0.5) * scale};
+    return upper_left + Complex((z.real() - left + 0.5) * scale, (z.imag() + top - 0.5) * scale);
   }
 };
 

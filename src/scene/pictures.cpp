@@ -1,6 +1,8 @@
 // Changes to a file are detected by its modification time.
 #include "scene/pictures.h"
 
+#include <algorithm>
+
 #include "scene/clips.h"
 #include "scene/formats/file_kinds.h"
 #include "scene/formats/image_formats.h"
@@ -17,6 +19,14 @@ constexpr size_t kSignature = 8;                   // bytes by which formats are
 
 bool is_film(const std::string& file) {
   return is_named_as(file, FileContent::film);
+}
+
+/// Moves a layer and its canvas in the plane.
+void move(Image& image, const PixelPosition& by) {
+  image.left += by.x;
+  image.bottom += by.y;
+  Box& canvas = *image.canvas;
+  canvas = {canvas.left + by.x, canvas.bottom + by.y, canvas.right + by.x, canvas.top + by.y};
 }
 
 }  // namespace
@@ -45,11 +55,57 @@ Picture PictureFiles::picture(const ImageReference& reference) {
     }
     return {file.footage->frame(0), file.sha256, file.changed, file.footage};
   }
-  Image image = reference.entry.empty() ? decode_image(file.bytes, name, pixels_)
-                                        : decode_layer(file.bytes, reference.entry, name, pixels_);
+  if (!reference.entry.empty()) return layer_picture(reference);
+  Image image = decode_image(file.bytes, name, pixels_);
   Picture picture{std::make_shared<const Image>(std::move(image)), file.sha256, file.changed};
   if (is_svg(file.bytes)) picture.drawing = std::make_shared<const std::string>(file.bytes);
   return picture;
+}
+
+const FileLayers& PictureFiles::layers(const std::string& name) {
+  File& file = read(name);
+  if (!file.layers) file.layers = layers_of_file(file.bytes, name);
+  return *file.layers;
+}
+
+Picture PictureFiles::layer_picture(const ImageReference& reference) {
+  const File& file = read(reference.file);
+  if (reference.mark && reference.mark->lost) {
+    Image nothing(1, 1);
+    nothing.left = reference.corner.x;
+    nothing.bottom = reference.corner.y;
+    nothing.canvas = reference.page();
+    return {std::make_shared<const Image>(std::move(nothing)),
+            file.sha256,
+            file.changed,
+            {},
+            {},
+            reference.mark};
+  }
+  Image image = decode_layer(file.bytes, reference.entry, reference.file, pixels_);
+  LayerMark mark = mark_of(reference.file, reference.entry, image);
+  move(image, reference.corner);
+  return {std::make_shared<const Image>(std::move(image)),
+          file.sha256,
+          file.changed,
+          {},
+          {},
+          std::move(mark)};
+}
+
+const LayerMark& PictureFiles::mark_of(const std::string& file, const std::string& entry,
+                                       const Image& image) {
+  const auto& all = layers(file).layers;
+  const auto found = std::ranges::find(all, entry, &FileLayer::entry);
+  LayerMark mark = holomorph::mark_of(image, found == all.end() ? "" : found->name);
+  return read(file).marks.insert_or_assign(entry, std::move(mark)).first->second;
+}
+
+const LayerMark& PictureFiles::mark(const std::string& name, const std::string& entry) {
+  const File& file = read(name);
+  if (const auto known = file.marks.find(entry); known != file.marks.end()) return known->second;
+  PixelBudget alone;  // the pixels are not kept
+  return mark_of(name, entry, decode_layer(file.bytes, entry, name, alone));
 }
 
 ImageReference reference_in(const Path& file, const std::string& entry) {
@@ -60,9 +116,11 @@ ImageReference reference_in(const Path& file, const std::string& entry) {
 }
 
 ImageReference described(ImageReference reference, const Picture& picture) {
-  reference.width = picture.image->width;
-  reference.height = picture.image->height;
+  const Box page = picture.image->page();
+  reference.width = static_cast<int>(page.width());
+  reference.height = static_cast<int>(page.height());
   reference.sha256 = picture.sha256;
+  reference.mark = picture.mark;
   if (!picture.footage) return reference;
   const FilmInfo& film = picture.footage->info();
   if (!reference.clip) reference.clip = Clip{film.frames_per_second};
@@ -109,7 +167,10 @@ const Image* Pictures::of(const Layer& layer) const {
 }
 
 Pictures::Source Pictures::source_of(const ImageReference& reference) {
-  return {reference.file, reference.entry, reference.clip || is_film(reference.file)};
+  return {reference.file,
+          reference.entry,
+          reference.clip || is_film(reference.file),
+          {reference.corner.x, reference.corner.y}};
 }
 
 const Picture* Pictures::find(const ImageReference& reference) const {
@@ -178,6 +239,7 @@ std::vector<ImageReference> Pictures::changed() const {
     const auto now = fs::last_write_time(source.file, error);
     if (error || now == picture.changed) continue;
     all.push_back(reference_in(source.file, source.entry));
+    all.back().corner = {source.corner.first, source.corner.second};
     if (source.moves) all.back().clip.emplace();
   }
   return all;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scene/footage.h"
+#include "scene/formats/layered.h"
 #include "scene/scene.h"
 
 namespace holomorph {
@@ -19,6 +20,7 @@ struct Picture {
   std::filesystem::file_time_type changed = {};     ///< the file's modification time
   std::shared_ptr<Footage> footage = {};            ///< if the picture moves
   std::shared_ptr<const std::string> drawing = {};  ///< the text of an SVG file
+  std::optional<LayerMark> mark = {};               ///< of a layer of a file
 };
 
 /// Reads the pictures named by references. A file named by several references is read once.
@@ -31,14 +33,22 @@ class PictureFiles {
   Picture picture(const ImageReference& reference);
   /// The SHA-256 of a file, as in ImageReference. Does not decode the picture. Throws Error.
   const std::string& sha256(const std::string& file) { return read(file).sha256; }
+  /// The layers of a file with layers. Throws Error.
+  const FileLayers& layers(const std::string& file);
+  /// What a layer of a file is like. Decodes it, unless it is known. Throws Error.
+  const LayerMark& mark(const std::string& file, const std::string& entry);
 
  private:
   struct File {
     std::string bytes, sha256;  ///< of a film, no bytes
     std::filesystem::file_time_type changed = {};
-    std::shared_ptr<Footage> footage = {};  ///< once it was asked for
+    std::shared_ptr<Footage> footage = {};        ///< once it was asked for
+    std::optional<FileLayers> layers = {};        ///< once they were asked for
+    std::map<std::string, LayerMark> marks = {};  ///< of the layers that were decoded, by entry
   };
   File& read(const std::string& name);
+  Picture layer_picture(const ImageReference& reference);
+  const LayerMark& mark_of(const std::string& file, const std::string& entry, const Image& image);
 
   std::map<std::string, File> files_;  ///< keyed by path
   PixelBudget pixels_;
@@ -96,6 +106,7 @@ class Pictures {
   struct Source {
     std::string file, entry;
     bool moves = false;
+    std::pair<int, int> corner = {};  ///< as in ImageReference
     auto operator<=>(const Source&) const = default;
   };
   static Source source_of(const ImageReference& reference);

@@ -23,15 +23,39 @@ struct Clip {
   bool operator==(const Clip&) const = default;
 };
 
+/// A position in whole pixels, y up.
+struct PixelPosition {
+  int x = 0, y = 0;
+  bool operator==(const PixelPosition&) const = default;
+};
+
+/// What a layer of a file with layers was like when it was last read. When the file has changed,
+/// the layer is found again by this; see layer_update.h.
+struct LayerMark {
+  std::string name;      ///< as in FileLayer
+  std::string hash;      ///< of its pixels; see mark_of()
+  PixelPosition offset;  ///< of the lower left corner of its content from that of the canvas
+  bool lost = false;     ///< it was no longer in the file
+  bool operator==(const LayerMark&) const = default;
+};
+
 /// A reference to the picture of a layer, with properties of its file. The path is relative to the
 /// scene's folder in a scene file, and absolute in a loaded scene.
 struct ImageReference {
   std::string file;
-  std::string entry = {};  ///< for a layer of a file with layers, its FileLayer::entry
-  int width = 0, height = 0;
-  std::string sha256;  ///< of the file's bytes, or of the first 16 MiB of a film
+  std::string entry = {};     ///< for a layer of a file with layers, its FileLayer::entry
+  int width = 0, height = 0;  ///< of the picture, or of the canvas on which a layer lies
+  PixelPosition corner = {};  ///< the lower left corner of this canvas in the layer's plane
+  std::string sha256;         ///< of the file's bytes, or of the first 16 MiB of a film
   Extra extra;
-  std::optional<Clip> clip = {};  ///< if the picture moves
+  std::optional<LayerMark> mark = {};  ///< of a layer of a file
+  std::optional<Clip> clip = {};       ///< if the picture moves
+
+  /// The rectangle of the picture or of its canvas.
+  Box page() const {
+    return {double(corner.x), double(corner.y), double(corner.x) + width,
+            double(corner.y) + height};
+  }
   bool operator==(const ImageReference&) const = default;
 };
 

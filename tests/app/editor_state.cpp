@@ -60,6 +60,7 @@ nlohmann::ordered_json EditorState::json() const {
       {"locked", kept.layer().locked},
       {"visible", kept.layer().visible},
       {"pictured", document.image() != nullptr},
+      {"entry", kept.layer().image ? kept.layer().image->entry : ""},
       {"keys", kept.deformation().keyframes.size()},
       {"time", workspace.shown.timeline.time},
       {"shows_time", workspace.shown.timeline.active},

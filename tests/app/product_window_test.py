@@ -1,5 +1,6 @@
 # Tests of the first minutes in the real window: few actions to a bent picture, methods that are easy to change, panels
 # that stay in place.
+import io
 import json
 import os
 import shutil
@@ -7,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zipfile
 
 import numpy
 from PIL import Image
@@ -42,6 +44,65 @@ class ProductWindowTest(WindowCase):
             self.assertLess(abs(pin["rest"][0] - place[0]) + abs(pin["rest"][1] - place[1]), 6, "pins lie where they were pressed")
         self.assertEqual([pin.get("pose", pin["rest"]) == pin["rest"] for pin in pins], [True, True, False])
         self.assertGreater(pins[2]["pose"][1] - pins[2]["rest"][1], 45, "the drag moves the pin that its press has set")
+
+    def painted(self, layers, width=200, height=150):
+        """An OpenRaster file of rectangles: name, x, y from the upper left corner, and color, from bottom to top."""
+        stack, path = "", os.path.join(self.work, "doll.ora")
+        with zipfile.ZipFile(path + ".new", "w") as archive:
+            archive.writestr("mimetype", "image/openraster")
+            for number, (name, x, y, color) in enumerate(reversed(layers)):
+                data = io.BytesIO()
+                Image.new("RGBA", (60, 40), color).save(data, "PNG")
+                archive.writestr(f"data/layer{number}.png", data.getvalue())
+                stack += f'<layer name="{name}" src="data/layer{number}.png" x="{x}" y="{y}"/>'
+            archive.writestr("stack.xml", f'<image w="{width}" h="{height}"><stack>{stack}</stack></image>')
+        os.replace(path + ".new", path)
+        return path
+
+    def test_a_layered_file_that_changes_keeps_its_rig(self):
+        """Layers are found again while the scene is open and when it is opened; the window asks where it is not clear."""
+        body, arm = ("body", 20, 20, (40, 90, 200, 255)), ("arm", 100, 60, (200, 40, 40, 255))
+        scene = os.path.join(self.work, "doll.json")
+        with Editor([self.painted([body, arm])]) as editor:
+            editor.wait(lambda s: s["layers"] == 2 and s["pictured"], "the layers")
+            self.save_as(editor, scene)
+            place = {layer["name"]: layer["image"] for layer in load(scene)["layers"]}
+            self.assertEqual(place["arm"]["entry"], "data/layer0.png")
+            # A new layer on top gives all files other names; the arm moves.
+            editor.pause(1)
+            self.painted([body, ("arm", 110, 55, (200, 40, 40, 255)), ("hat", 0, 0, (10, 200, 10, 255))])
+            editor.wait(lambda s: s["entry"] == "data/layer1.png", "the arm under its new name")
+            scene = os.path.join(self.work, "again.json")
+            self.save_as(editor, scene)
+            found = {layer["name"]: layer for layer in load(scene)["layers"]}
+            self.assertEqual(found["arm"]["image"]["entry"], "data/layer1.png")
+            self.assertEqual(found["arm"]["placement"]["shift"], [10, 5])
+        # The arm is renamed and repainted while the program does not run: which one is it?
+        self.painted([body, ("sleeve", 110, 55, (240, 200, 40, 255)), ("hat", 0, 0, (10, 200, 10, 255))])
+        with Editor([scene]) as editor:
+            editor.wait(lambda s: s["question"] == "Which layer is it?", "the question")
+            self.screenshot(editor, "which-layer")
+            editor.press_item("Later")
+            editor.wait(lambda s: not s["asking"], "no question")
+            self.screenshot(editor, "which-layer-later")
+            editor.press_item("Choose...")
+            editor.wait(lambda s: s["question"] == "Which layer is it?", "the question again")
+            editor.press_item("layer")
+            editor.pause(0.3)
+            self.screenshot(editor, "which-layer-list")
+            editor.press_item("sleeve")
+            editor.pause(0.5)
+            self.screenshot(editor, "which-layer-chosen")
+            editor.press_item("OK")
+            editor.wait(lambda s: not s["asking"] and s["modified"], "the answer")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "the saved scene")
+            self.assertEqual([layer["image"]["name"] for layer in load(scene)["layers"]], ["body", "sleeve"])
+            self.by_palette(editor, "Add new layers of the file")
+            editor.wait(lambda s: s["layers"] == 3 and s["modified"], "the new layer")
+            editor.key("ctrl+s")
+            editor.wait(lambda s: not s["modified"], "the saved scene")
+            self.assertEqual([layer["name"] for layer in load(scene)["layers"]], ["body", "arm", "hat"])
 
     def test_ctrl_drags_the_radius_of_the_held_disk(self):
         with Editor([os.path.join(SOURCE, "assets", "gecko.json")]) as editor:

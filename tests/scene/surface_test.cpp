@@ -283,10 +283,10 @@ TEST_CASE("A written surface is read back with its texture coordinates") {
     CHECK(std::abs(again.texture[i] - texture[i]) < 1e-8);
     CHECK((again.surface.vertices[i] - leaf.vertices[i]).norm() < 1e-8);
   }
-  const Points boundary = texture_boundary(again, 200, 100);
+  const Points boundary = texture_boundary(again, {0, 0, 200, 100});
   CHECK(box_of(boundary).width() == Approx(200).epsilon(0.01));
   CHECK(box_of(boundary).height() == Approx(100).epsilon(0.01));
-  CHECK_THROWS_WITH(texture_boundary({leaf, {}}, 10, 10), Catch::Contains("no texture"));
+  CHECK_THROWS_WITH(texture_boundary({leaf, {}}, {0, 0, 10, 10}), Catch::Contains("no texture"));
 }
 
 TEST_CASE("Materials: the first picture, whatever blanks, options and slashes surround its name") {

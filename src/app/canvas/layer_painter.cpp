@@ -35,6 +35,7 @@ int LayerPainter::update_picture(std::shared_ptr<const Image> picture, bool move
   if (moves || pixels <= kSmallPixels) {
     const int factor =
         renderer_.set_picture(picture_->width, picture_->height, picture_->pixels.data());
+    renderer_.place_picture(picture_->box(), picture_->page());
     return moves && moved ? 0 : factor;
   }
   ready_ = std::make_shared<TextureLevels>();
@@ -54,6 +55,7 @@ bool LayerPainter::allocate_texture() {
   preparing_.reset();
   factor_ = ready_->factor;
   renderer_.begin_picture(std::exchange(ready_, nullptr));
+  renderer_.place_picture(picture_->box(), picture_->page());
   return uploading_ = true;
 }
 

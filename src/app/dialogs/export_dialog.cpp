@@ -140,10 +140,11 @@ std::pair<Scene, PictureOptions> ExportDialog::drawn() const {
 std::string ExportDialog::st_map_text() const {
   const Image* picture = workspace_.document.image();
   if (!picture) return "The edited layer has no picture";
-  const auto side = [&](int length) {
+  const auto side = [&](double length) {
     return std::to_string(std::lround(length * settings_.scale) + 2 * settings_.overscan);
   };
-  const std::string size = side(picture->width) + " \u00d7 " + side(picture->height) + " px";
+  const std::string size =
+      side(picture->page().width()) + " \u00d7 " + side(picture->page().height()) + " px";
   const size_t count = files().size();
   if (count > 1) return std::to_string(count) + " files, " + size;
   return size + (workspace_.shown.time_of_layers() ? ", at the current time only" : "");

@@ -20,10 +20,20 @@ void draw_missing_picture(Workspace& workspace) {
   const std::string others =
       missing.size() > 1 ? ", and " + std::to_string(missing.size() - 1) + " more" : "";
   const bool withheld = workspace.document.pictures().withheld().contains(file.string());
+  const Layer& layer = *workspace.document.scene().layers[missing.front()];
+  const bool unclear = !withheld && !layer.image->entry.empty() && path_exists(file);
   wrapped_text(std::string(icon_named("warning")) + "  " + file.filename().string() +
-               (withheld ? " is not in the scene's folder" : " could not be read") + others);
-  caption(withheld ? "Hidden until you allow it: " + file.string()
-                   : "The scene expects it in " + file.parent_path().string() + ".");
+               (withheld  ? " is not in the scene's folder"
+                : unclear ? ": it is not clear which layer \"" + name_in_file(layer) + "\" is now"
+                          : " could not be read") +
+               others);
+  caption(withheld  ? "Hidden until you allow it: " + file.string()
+          : unclear ? "The file has changed."
+                    : "The scene expects it in " + file.parent_path().string() + ".");
+  if (unclear) {
+    if (button("Choose...", ButtonKind::primary)) workspace.request = Request::find_layers;
+    return end_card();
+  }
   if (withheld) {
     if (button("Show it...", ButtonKind::primary)) workspace.request = Request::show_withheld;
     ImGui::SameLine();

@@ -45,6 +45,11 @@ void detach_layer(Workspace& w) {
   w.commit_layers("Detach layer", detached(scene, scene.edited, w.placement(scene.edited)));
 }
 
+bool is_of_layered_file(const Workspace& w) {
+  const auto& image = w.document.scene().layer().image;
+  return image && !image->entry.empty();
+}
+
 /// Whether the picture is one of several with successive numbers, and does not play as a film yet.
 bool is_numbered(const Workspace& w) {
   const auto& image = w.document.scene().layer().image;
@@ -115,6 +120,14 @@ std::vector<Action> layer_actions() {
           .needs = "Needs one of several numbered pictures",
           .enabled = is_numbered,
           .run = ask<Request::play_numbered>,
+      },
+      {
+          .id = "layer.add_new",
+          .label = "Add new layers of the file",
+          .hint = "Add the layers of the file that are not in the scene yet",
+          .needs = "Needs a layer of a file with layers",
+          .enabled = is_of_layered_file,
+          .run = ask<Request::add_new_layers>,
       },
       {
           .id = "layer.double",

@@ -51,7 +51,7 @@ const std::vector<MenuItem>& menus() {
           {"edit.snap"}}}}},
       {"Layer",
        {{"layer.add"},
-        {"Picture", {{"layer.replace"}, {"layer.play_numbered"}}},
+        {"Picture", {{"layer.replace"}, {"layer.add_new"}, {"layer.play_numbered"}}},
         {"layer.double"},
         {"layer.rename"},
         {"layer.delete"},

@@ -32,9 +32,9 @@ Deformation moved_as_whole(Deformation deformation, Complex by) {
 }
 
 Deformation with_box(Deformation deformation, const Image& picture) {
-  const double width = picture.width, height = picture.height;
-  const Points corners{{0, 0}, {width, 0}, {width, height}, {0, height}};
-  return with_method_for(with_cage(std::move(deformation), corners), MethodUse::cage);
+  const auto corners = picture.box().corners();
+  return with_method_for(with_cage(std::move(deformation), {corners.begin(), corners.end()}),
+                         MethodUse::cage);
 }
 
 bool shows_at(const Workspace& w, size_t number, Complex px) {

@@ -43,9 +43,7 @@ Deformation HandleDrag::dragged(const Input& input, Workspace& workspace) {
   if (workspace.tools.snaps) {
     constexpr double kReach = 0.7;  // in multiples of the picking distance
     Snapping snapping{kReach * workspace.display.handle_px / workspace.layer_view().zoom, {}};
-    if (const Image* image = workspace.document.image())
-      snapping.picture =
-          Box{0, 0, static_cast<double>(image->width), static_cast<double>(image->height)};
+    if (const Image* image = workspace.document.image()) snapping.picture = image->page();
     by = snapped(deformation_, what_, pressed_, by, workspace.mode, snapping, guides_);
   }
   const Handle& first = *what_.begin();

@@ -66,14 +66,14 @@ std::string npy_of(const std::vector<float>& numbers, size_t rows, size_t column
   return bytes;
 }
 
-std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width,
-                   int image_height) {
+std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, const Box& page) {
   std::string out = "# The warped mesh: positions in image pixels, y up.\n";
   for (const Complex& z : positions)
     out += "v " + number(z.real()) + " " + number(z.imag()) + " 0\n";
-  const double w = std::max(image_width, 1), h = std::max(image_height, 1);
+  const double w = std::max(page.width(), 1.0), h = std::max(page.height(), 1.0);
   for (const Complex& z : mesh.vertices)
-    out += "vt " + number(z.real() / w) + " " + number(z.imag() / h) + "\n";
+    out += "vt " + number((z.real() - page.left) / w) + " " + number((z.imag() - page.bottom) / h) +
+           "\n";
   for (const Triangle& t : mesh.triangles) {
     out += "f";
     for (const int v : t) out += " " + std::to_string(v + 1) + "/" + std::to_string(v + 1);

@@ -16,9 +16,8 @@ std::string npy_of(std::span<const Complex> positions);
 std::string npy_of(const std::vector<float>& numbers, size_t rows, size_t columns, size_t depth);
 
 /// The deformed mesh as Wavefront OBJ, with positions in pixels of the picture. Texture coordinates
-/// refer to the picture.
-std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, int image_width,
-                   int image_height);
+/// refer to the page.
+std::string obj_of(const Mesh& mesh, std::span<const Complex> positions, const Box& page);
 
 /// The points in a table: two numbers per line, separated by a semicolon, a tab, a comma or blanks,
 /// in UTF-8 or UTF-16. Fields may be quoted, and numbers may have a decimal comma. The first line

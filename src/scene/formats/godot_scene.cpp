@@ -72,7 +72,8 @@ std::string godot_of(const MovingMeshes& moving, const std::vector<std::string>&
     const MovingMesh& mesh = moving.meshes[i];
     Points coordinates;
     for (const Complex& z : mesh.rest)
-      coordinates.push_back({z.real(), z.imag() - std::max(1, mesh.texture.height)});
+      coordinates.push_back(
+          z - Complex(mesh.texture.left, mesh.texture.bottom + std::max(1, mesh.texture.height)));
     text += "\n[node name=" + godot_text(names[i]) + " type=\"Polygon2D\" parent=\".\"]\n";
     if (!textures[i].empty()) text += "texture = ExtResource( " + std::to_string(i + 1) + " )\n";
     if (mesh.opacity < 1) text += "color = Color( 1, 1, 1, " + short_number(mesh.opacity) + " )\n";

@@ -17,13 +17,12 @@
 namespace holomorph {
 
 void PixelBudget::take(size_t width, size_t height, const std::string& name, double copies) {
-  constexpr size_t kLargest = 16384;
   if (width == 0 || height == 0)
     throw Error(ErrorKind::bad_input, name + ": the picture has no pixels");
-  if (width > kLargest || height > kLargest)
+  if (width > kLargestSide || height > kLargestSide)
     throw Error(ErrorKind::bad_input, name + ": the picture has " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels; at most " +
-                                          std::to_string(kLargest) + " per side can be opened");
+                                          std::to_string(kLargestSide) + " per side can be opened");
   const double pixels = static_cast<double>(width) * static_cast<double>(height);
   check_budget(&Budget::pixels, taken_ + copies * pixels,
                name + (copies > 1   ? ": decoding this picture takes the memory of"
@@ -83,6 +82,9 @@ Image cut_out(const Image& image, int left, int top, int width, int height) {
     std::copy_n(&image.pixels[from], row, &part.pixels[to]);
     if (!image.fine.empty()) std::copy_n(&image.fine[from], row, &part.fine[to]);
   }
+  part.left = image.left + left;
+  part.bottom = image.top() - top - height;
+  part.canvas = image.canvas;
   return part;
 }
 
@@ -133,6 +135,9 @@ void append_to(void* bytes, void* data, int size) {
 }  // namespace
 
 bool is_opaque(const Image& image) {
+  const Box box = image.box(), page = image.page();
+  if (!box.contains({page.left, page.bottom}) || !box.contains({page.right, page.top}))
+    return false;
   for (size_t i = 3; i < image.pixels.size(); i += 4)
     if (image.pixels[i] < 255) return false;
   return true;

@@ -13,9 +13,12 @@
 namespace holomorph {
 
 /// A picture of 8-bit straight-alpha RGBA pixels, rows from top to bottom. The pixel in column c of
-/// row r covers the plane's square [c, c + 1] x [height - r - 1, height - r].
+/// row r covers the plane's square [left + c, left + c + 1] x [top() - r - 1, top() - r].
 struct Image {
   int width = 0, height = 0;
+  int left = 0, bottom = 0;  ///< its lower left corner in the plane
+  /// The canvas of the file, in the plane, if the picture is a layer that lies somewhere on it.
+  std::optional<Box> canvas = {};
   std::vector<std::uint8_t> pixels;  ///< 4 per pixel
   /// The same pixels before they were rounded, or empty, which is usual. 255 is white or opaque, as
   /// in `pixels`, but colors may be brighter than white.
@@ -25,6 +28,14 @@ struct Image {
   Image(int width, int height)
       : width(width), height(height), pixels(static_cast<size_t>(width) * height * 4) {}
   bool operator==(const Image&) const = default;
+
+  int top() const { return bottom + height; }
+  /// The rectangle that the pixels cover.
+  Box box() const {
+    return {double(left), double(bottom), double(left) + width, double(bottom) + height};
+  }
+  /// The rectangle that the picture is a picture of: the canvas, or else that of its pixels.
+  Box page() const { return canvas.value_or(box()); }
 
   /// Where a pixel starts in `pixels` and in `fine`.
   size_t index(int column, int row) const {
@@ -41,7 +52,7 @@ inline bool is_filled(const Image& image, int column, int row) {
   const size_t alpha = image.index(column, row) + 3;
   return image.fine.empty() ? image.pixels[alpha] > 0 : image.fine[alpha] > 0;
 }
-/// A part of a picture, in whole pixels.
+/// A part of a picture, in whole pixels from its upper left corner. It stays where it is.
 Image cut_out(const Image& image, int left, int top, int width, int height);
 
 /// What is read of pictures with more than 8 bits.
@@ -54,8 +65,9 @@ class PixelBudget {
  public:
   /// A budget with `taken` pixels already in use.
   explicit PixelBudget(double taken = 0) : taken_(taken) {}
+  static constexpr size_t kLargestSide = 16384;  ///< of a picture, in pixels
   /// Deducts a picture's pixels from the budget. Call it before decoding. Throws Error{bad_input}
-  /// if the picture exceeds the remaining budget or 16384 pixels per side. `copies` is the number
+  /// if the picture exceeds the remaining budget or kLargestSide. `copies` is the number
   /// of copies of the picture that decoding holds in memory.
   void take(size_t width, size_t height, const std::string& name, double copies = 1);
 
@@ -78,7 +90,7 @@ ImportReport report_of_image(const std::string& bytes, const std::string& name);
 /// Whether a file that starts with these bytes may have more than 8 bits that can be read.
 bool has_fine_pixels(const std::string& start);
 
-/// Whether no pixel is transparent, not even partly.
+/// Whether no pixel of the page is transparent, not even partly.
 bool is_opaque(const Image& image);
 
 /// The bytes of a PNG file.

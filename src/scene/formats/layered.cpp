@@ -12,6 +12,45 @@
 
 namespace holomorph {
 
+namespace {
+
+/// A part of a picture, in pixels from its upper left corner.
+struct PixelRange {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// The pixels that are not transparent; without any, the first one.
+PixelRange filled_range(const Image& image) {
+  PixelRange content{image.width, image.height, 0, 0};
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c)
+      if (image.at(c, r)[3] > 0) {
+        content.left = std::min(content.left, c);
+        content.right = std::max(content.right, c + 1);
+        content.top = std::min(content.top, r);
+        content.bottom = r + 1;
+      }
+  return content.right == 0 ? PixelRange{0, 0, 1, 1} : content;
+}
+
+/// The content of a picture, with one transparent row or column at each side that lies inside the
+/// canvas: colors are mixed across the edges of the content.
+Image trimmed(const Image& image) {
+  const auto [left, top, right, bottom] = filled_range(image);
+  const Box canvas = image.page();
+  const int before = image.left + left > canvas.left, above = image.top() - top < canvas.top,
+            after = image.left + right<canvas.right, below = image.top() - bottom> canvas.bottom;
+  Image content(right - left + before + after, bottom - top + above + below);
+  for (int r = top; r < bottom; ++r)
+    std::copy_n(image.at(left, r), 4 * (right - left), content.at(before, r - top + above));
+  content.left = image.left + left - before;
+  content.bottom = image.top() - bottom - below;
+  content.canvas = image.canvas;
+  return content;
+}
+
+}  // namespace
+
 bool may_have_layers(const Path& file) {
   const std::string extension = lower_case(file.extension().string());
   return extension == ".ora" || extension == ".psd";
@@ -25,8 +64,20 @@ FileLayers layers_of_file(const std::string& bytes, const std::string& name) {
 
 Image decode_layer(const std::string& bytes, const std::string& entry, const std::string& name,
                    PixelBudget& pixels) {
-  if (is_psd(bytes)) return decode_psd_layer(bytes, entry, name, pixels);
-  return decode_ora_layer(bytes, entry, name, pixels);
+  return trimmed(is_psd(bytes) ? decode_psd_layer(bytes, entry, name, pixels)
+                               : decode_ora_layer(bytes, entry, name, pixels));
+}
+
+LayerMark mark_of(const Image& image, const std::string& name) {
+  const auto [left, top, right, bottom] = filled_range(image);
+  std::string bytes = std::to_string(right - left) + " x " + std::to_string(bottom - top) + "\n";
+  for (int r = top; r < bottom; ++r)
+    for (int c = left; c < right; ++c) {
+      constexpr std::uint8_t kNothing[4] = {};
+      const std::uint8_t* pixel = image.at(c, r)[3] > 0 ? image.at(c, r) : kNothing;
+      bytes.append(reinterpret_cast<const char*>(pixel), 4);
+    }
+  return {name, sha256_hex(bytes), {image.left + left, image.top() - bottom}};
 }
 
 DrawnLayer background_layer(const LayeredPicture& picture) {

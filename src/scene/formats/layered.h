@@ -31,10 +31,15 @@ struct FileLayers {
 bool may_have_layers(const Path& file);
 /// Throws Error{bad_input} if the file is damaged.
 FileLayers layers_of_file(const std::string& bytes, const std::string& name);
-/// Decodes one layer as a picture of the canvas's size; what lies outside the canvas is dropped.
+/// Decodes one layer: the smallest picture that shows all of it, also what lies outside the canvas.
+/// The canvas's lower left corner is the origin. A layer without content is one transparent pixel.
 /// Throws Error{bad_input}, also if there is no layer with this entry.
 Image decode_layer(const std::string& bytes, const std::string& entry, const std::string& name,
                    PixelBudget& pixels);
+
+/// What a layer is like whose canvas has its lower left corner at the origin. The hash is the
+/// SHA-256 of the size and the pixels of what is not transparent, in hexadecimal.
+LayerMark mark_of(const Image& image, const std::string& name);
 
 /// A layer that is written to a file.
 struct DrawnLayer {

@@ -12,8 +12,8 @@ bool moves(const MovingMesh& mesh) {
 }
 
 Complex texture_coordinate(const MovingMesh& mesh, Complex rest) {
-  return {rest.real() / std::max(1, mesh.texture.width),
-          rest.imag() / std::max(1, mesh.texture.height)};
+  return {(rest.real() - mesh.texture.left) / std::max(1, mesh.texture.width),
+          (rest.imag() - mesh.texture.bottom) / std::max(1, mesh.texture.height)};
 }
 
 std::vector<std::string> unique_names(const MovingMeshes& moving) {

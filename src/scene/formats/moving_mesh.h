@@ -13,7 +13,7 @@ struct MovingMesh {
   std::string name;
   Image texture;  ///< empty: none
   double opacity = 1;
-  Points rest;                      ///< on the texture, in its pixels
+  Points rest;                      ///< on the texture, in its plane
   std::vector<Triangle> triangles;  ///< each covers those before it
   std::vector<Points> frames;       ///< the positions of the vertices, at least once
 };

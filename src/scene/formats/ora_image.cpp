@@ -171,22 +171,14 @@ Image decode_ora_layer(const std::string& bytes, const std::string& entry, const
   const auto placed = std::ranges::find_if(
       stack.layers, [&](const Placed& each) { return each.layer.entry == entry; });
   if (placed == stack.layers.end()) fail(name, "its layer " + entry + " no longer exists");
-  PixelBudget alone;  // a separate budget, because parts outside the canvas are dropped
-  const Image picture = archive.picture(entry, alone);
-  pixels.take(static_cast<size_t>(stack.width), static_cast<size_t>(stack.height), name);
-  Image canvas(stack.width, stack.height);
-  for (int r = 0; r < picture.height; ++r) {
-    const long row = static_cast<long>(r) + placed->y;
-    if (row < 0 || row >= canvas.height) continue;
-    for (int c = 0; c < picture.width; ++c) {
-      const long column = static_cast<long>(c) + placed->x;
-      if (column < 0 || column >= canvas.width) continue;
-      std::uint8_t* to = canvas.at(static_cast<int>(column), static_cast<int>(row));
-      std::memcpy(to, picture.at(c, r), 4);
-      to[3] = static_cast<std::uint8_t>(std::lround(to[3] * placed->opacity));
-    }
-  }
-  return canvas;
+  Image picture = archive.picture(entry, pixels);
+  for (size_t alpha = 3; alpha < picture.pixels.size(); alpha += 4)
+    picture.pixels[alpha] =
+        static_cast<std::uint8_t>(std::lround(picture.pixels[alpha] * placed->opacity));
+  picture.left = placed->x;
+  picture.bottom = stack.height - placed->y - picture.height;
+  picture.canvas = Box{0, 0, double(stack.width), double(stack.height)};
+  return picture;
 }
 
 }  // namespace holomorph

@@ -81,6 +81,12 @@ void flatten(const std::vector<Node>& nodes, const FileLayer& group, FileLayers&
   }
 }
 
+/// Whether a picture may be as large as this.
+bool is_small(const PsdBounds& bounds) {
+  return bounds.width() <= PixelBudget::kLargestSide &&
+         bounds.height() <= PixelBudget::kLargestSide;
+}
+
 PsdBounds on_canvas(const PsdBounds& bounds, const PsdFile& psd) {
   const int width = static_cast<int>(psd.width), height = static_cast<int>(psd.height);
   return {std::clamp(bounds.top, 0, height), std::clamp(bounds.left, 0, width),
@@ -267,12 +273,17 @@ Image decode_psd_layer(const std::string& bytes, const std::string& entry, const
       psd.records, [&](const PsdRecord& record) { return record.layer.entry == entry; });
   if (found == psd.records.end()) file.damaged("its layer " + entry + " no longer exists");
   const PsdRecord& record = *found;
-  pixels.take(psd.width, psd.height, name);
   check_budget(&Budget::pixels, static_cast<double>(record.bounds.width() * record.bounds.height()),
                name + ": a layer has");
-  Image canvas(static_cast<int>(psd.width), static_cast<int>(psd.height));
-  const PsdBounds kept = on_canvas(record.bounds, psd);
-  if (kept.width() == 0 || kept.height() == 0) return canvas;
+  const int height = static_cast<int>(psd.height);
+  const Box canvas{0, 0, static_cast<double>(psd.width), static_cast<double>(psd.height)};
+  const PsdBounds kept = is_small(record.bounds) ? record.bounds : on_canvas(record.bounds, psd);
+  if (kept.width() == 0 || kept.height() == 0) {
+    Image nothing(1, 1);
+    nothing.canvas = canvas;
+    return nothing;
+  }
+  pixels.take(kept.width(), kept.height(), name, psd.depth == 16 ? 3 : 1);
   std::vector<PsdRows> colors;
   for (size_t k = 0; k < psd.colors(); ++k) {
     const PsdChannel* channel = record.channel(static_cast<int>(k));
@@ -284,9 +295,10 @@ Image decode_psd_layer(const std::string& bytes, const std::string& entry, const
     alpha.emplace(rows_of(file, psd, *channel, record.bounds));
   Image image = drawn(psd, std::move(colors), std::move(alpha), record.bounds, kept);
   apply_mask(file, psd, record, kept, image);
-  for (int r = 0; r < image.height; ++r)
-    std::copy_n(image.at(0, r), 4 * kept.width(), canvas.at(kept.left, kept.top + r));
-  return canvas;
+  image.left = kept.left;
+  image.bottom = height - kept.bottom;
+  image.canvas = canvas;
+  return image;
 }
 
 Image decode_psd(const std::string& bytes, const std::string& name, PixelBudget& pixels) {

@@ -15,9 +15,9 @@
 namespace holomorph {
 namespace {
 
-/// With a list of layers, without one, and with holes in cages or a frame, which older programs
-/// would drop.
-constexpr int kLayeredVersion = 2, kPlainVersion = 1, kHoleVersion = 3, kFrameVersion = 4;
+/// With a list of layers, without one, and with what older programs would drop: holes in cages; and
+/// frames, parts, or marks of layers.
+constexpr int kLayeredVersion = 2, kPlainVersion = 1, kHoleVersion = 3, kNewestVersion = 4;
 constexpr int kDeepest = 200;  ///< limit on nesting, including unknown keys
 
 constexpr const char* kHold = "hold";
@@ -42,6 +42,39 @@ Clip read_clip(const Reader& reader) {
   return clip;
 }
 
+constexpr int kFarthestPixel = 1 << 22;
+
+PixelPosition read_pixel(const Reader& reader) {
+  reader.array();
+  if (reader.size() != 2) reader.fail("expected [x, y]");
+  return {reader[size_t{0}].whole(-kFarthestPixel, kFarthestPixel),
+          reader[1].whole(-kFarthestPixel, kFarthestPixel)};
+}
+
+Json pixel_json(const PixelPosition& position) {
+  return Json::array({position.x, position.y});
+}
+
+void read_mark(const Reader& reader, ImageReference& image) {
+  if (reader.has("corner")) image.corner = read_pixel(reader["corner"]);
+  if (!reader.has("hash")) return;
+  LayerMark mark;
+  mark.hash = reader["hash"].text();
+  if (reader.has("name")) mark.name = reader["name"].text();
+  if (reader.has("offset")) mark.offset = read_pixel(reader["offset"]);
+  if (reader.has("lost")) mark.lost = reader["lost"].truth();
+  image.mark = std::move(mark);
+}
+
+void write_mark(const ImageReference& image, Json& item) {
+  if (image.corner != PixelPosition{}) item["corner"] = pixel_json(image.corner);
+  if (!image.mark) return;
+  item["name"] = image.mark->name;
+  item["offset"] = pixel_json(image.mark->offset);
+  item["hash"] = image.mark->hash;
+  if (image.mark->lost) item["lost"] = true;
+}
+
 ImageReference read_image(const Reader& reader) {
   reader.object();
   ImageReference image;
@@ -56,7 +89,13 @@ ImageReference read_image(const Reader& reader) {
   }
   if (reader.has("sha256")) image.sha256 = reader["sha256"].text();
   if (reader.has("clip")) image.clip = read_clip(reader["clip"]);
-  image.extra = reader.others({"file", "entry", "size", "sha256", "clip"});
+  if (image.entry.empty()) {
+    image.extra = reader.others({"file", "entry", "size", "sha256", "clip"});
+    return image;
+  }
+  read_mark(reader, image);
+  image.extra = reader.others(
+      {"file", "entry", "size", "sha256", "clip", "corner", "hash", "name", "offset", "lost"});
   return image;
 }
 
@@ -251,10 +290,10 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
   if (!reader.has("format") || reader["format"].text() != "holomorph")
     reader.fail("not a Holomorph scene: \"format\": \"holomorph\" is missing");
   const int version = reader["version"].whole(1, 1 << 30);
-  if (version > kFrameVersion)
+  if (version > kNewestVersion)
     reader["version"].fail("the scene has version " + std::to_string(version) +
                            ", written by a newer program; this one reads versions up to " +
-                           std::to_string(kFrameVersion));
+                           std::to_string(kNewestVersion));
   Scene scene;
   read_shared(reader, scene);
   if (reader.has("layers"))
@@ -285,6 +324,7 @@ void write_image(const ImageReference& reference, Json& document) {
   if (reference.width > 0) image["size"] = Json::array({reference.width, reference.height});
   if (!reference.sha256.empty()) image["sha256"] = reference.sha256;
   if (reference.clip) image["clip"] = clip_json(*reference.clip);
+  write_mark(reference, image);
   add_extra(image, reference.extra);
   document["image"] = std::move(image);
 }
@@ -362,7 +402,11 @@ int version_of(const Scene& scene) {
   if (any([](const Deformation& d) {
         return d.frame != Frame::free || d.held_beyond || !d.rest.parts.empty();
       }))
-    return kFrameVersion;
+    return kNewestVersion;
+  if (std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
+        return layer->image && (layer->image->mark || layer->image->corner != PixelPosition{});
+      }))
+    return kNewestVersion;
   if (any([](const Deformation& d) { return !d.rest.starts.empty(); })) return kHoleVersion;
   return has_layers(scene) ? kLayeredVersion : kPlainVersion;
 }
@@ -377,6 +421,7 @@ Error not_utf8() {
 void check_texts(const Layer& layer) {
   std::vector<std::string> texts{layer.name};
   if (layer.image) texts.insert(texts.end(), {layer.image->file, layer.image->entry});
+  if (layer.image && layer.image->mark) texts.push_back(layer.image->mark->name);
   if (const auto& surface = layer.deformation.surface) texts.push_back(surface->file);
   if ((layer.image && layer.image->file.empty()) ||
       (layer.deformation.surface && layer.deformation.surface->file.empty()))

@@ -268,9 +268,9 @@ std::string svg_of(const Deformation& deformation, const std::optional<ImageRefe
   for (const Complex& z : outline_of(deformation.rest)) box.include(z);
   double height = box.height();
   if (image && image->width > 0) {
-    height = image->height;
-    box.include({0, 0});
-    box.include({static_cast<double>(image->width), height});
+    const Box page = image->page();
+    height = page.top;
+    for (const Complex& corner : page.corners()) box.include(corner);
   }
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(box.width()) +
                     "\" height=\"" + number(box.height()) + "\" viewBox=\"" + number(box.left) +

@@ -1,0 +1,97 @@
+// Each layer has a list of what it may be. What is chosen for one layer is grayed for the others.
+#include "app/dialogs/layer_question.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/look/controls.h"
+#include "app/look/surfaces.h"
+#include "app/panels/panels.h"
+
+namespace holomorph {
+namespace {
+
+constexpr float kSide = 56;  // of a thumbnail
+
+}  // namespace
+
+void LayerQuestion::ask(FoundLayers found, std::function<void(const LayerChoices&)> answered) {
+  chosen_.assign(found.update.unclear.size(), std::nullopt);
+  found_ = std::move(found);
+  answered_ = std::move(answered);
+}
+
+bool LayerQuestion::is_taken(const std::string& entry, size_t except) const {
+  for (size_t i = 0; i < chosen_.size(); ++i)
+    if (i != except && chosen_[i] == entry) return true;
+  return false;
+}
+
+void LayerQuestion::draw_row(size_t number, Thumbnails& thumbnails) {
+  const UnclearLayer& unclear = found_->update.unclear[number];
+  std::optional<std::string>& chosen = chosen_[number];
+  const auto name_of = [&]() -> std::string {
+    if (!chosen) return "Choose...";
+    for (const FileLayer& candidate : unclear.candidates)
+      if (candidate.entry == *chosen) return candidate.name;
+    return "None of them";
+  };
+  ImGui::PushID(static_cast<int>(number));
+  const Texture* texture =
+      chosen && !chosen->empty() ? thumbnails.of_picture(found_->candidates[*chosen]) : nullptr;
+  draw_thumbnail(*ImGui::GetWindowDrawList(), texture, ImGui::GetCursorScreenPos(), px(kSide),
+                 px(4));
+  ImGui::Dummy({px(kSide), px(kSide)});
+  ImGui::SameLine(0, px(12));
+  ImGui::BeginGroup();
+  wrapped_text(unclear.name.empty() ? "Layer without a name" : unclear.name);
+  if (begin_dropdown("##layer", name_of(), ImGui::GetContentRegionAvail().x)) {
+    for (const FileLayer& candidate : unclear.candidates)
+      if (dropdown_row(candidate.name + "##" + candidate.entry, chosen == candidate.entry,
+                       !is_taken(candidate.entry, number)))
+        chosen = candidate.entry;
+    if (dropdown_row("None of them", chosen == "")) chosen = "";
+    end_dropdown();
+  }
+  ImGui::EndGroup();
+  ImGui::PopID();
+}
+
+void LayerQuestion::draw(Thumbnails& thumbnails) {
+  if (!found_) return;
+  const std::string& file = found_->update.report.file;
+  if (!begin_dialog(kTitle, "###layers", 460)) return;
+  const bool several = chosen_.size() > 1;
+  wrapped_text(file + " has changed. Choose what " +
+               (several ? "each of these layers is" : "this layer is") +
+               " now. It keeps its cage, pins and keyframes.");
+  constexpr float kMostRows = 5;
+  const float rows = std::min(static_cast<float>(chosen_.size()), kMostRows);
+  ImGui::BeginChild("rows", {0, rows * px(kSide + 12)});
+  for (size_t i = 0; i < chosen_.size(); ++i) draw_row(i, thumbnails);
+  ImGui::EndChild();
+  constexpr float kWidth = 96;
+  begin_dialog_buttons(2 * px(kWidth) + px(8));
+  const bool complete = std::ranges::all_of(
+      chosen_, [](const std::optional<std::string>& entry) { return entry.has_value(); });
+  bool later = button("Later", ButtonKind::secondary, px(kWidth));
+  ImGui::SameLine(0, px(8));
+  ImGui::BeginDisabled(!complete);
+  bool done = button("OK", ButtonKind::primary, px(kWidth));
+  ImGui::EndDisabled();
+  const DialogKey key = dialog_key();
+  later = later || key == DialogKey::escape;
+  done = done || (complete && key == DialogKey::enter);
+  if (later || done) ImGui::CloseCurrentPopup();
+  end_dialog();
+  if (!later && !done) return;
+  LayerChoices choices;
+  for (size_t i = 0; done && i < chosen_.size(); ++i)
+    choices.emplace_back(found_->update.unclear[i].entry, *chosen_[i]);
+  found_.reset();
+  if (done) answered_(choices);
+}
+
+}  // namespace holomorph

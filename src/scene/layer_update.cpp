@@ -1,0 +1,421 @@
+// Layers are found by the most certain evidence first. Each step leaves fewer layers for the next.
+#include "scene/layer_update.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "scene/layers.h"
+#include "scene/limits.h"
+
+namespace holomorph {
+namespace {
+
+std::pair<std::string, std::pair<int, int>> key_of(const ImageReference& image) {
+  return {image.entry, {image.corner.x, image.corner.y}};
+}
+
+bool shows_layer_of(const Layer& layer, const std::string& file) {
+  return layer.image && layer.image->file == file && !layer.image->entry.empty();
+}
+
+/// A layer of the file as some references know it.
+struct Known {
+  std::string entry;
+  LayerMark mark;             ///< without a hash if the scene has none
+  std::optional<size_t> now;  ///< the layer that it is in the file
+};
+
+/// The number of the only element that satisfies a condition; none if there is no such element, or
+/// if there are several.
+template <class Range, class Condition>
+std::optional<size_t> only(const Range& range, const Condition& condition) {
+  std::optional<size_t> found;
+  for (size_t i = 0; i < range.size(); ++i)
+    if (condition(range[i], i)) {
+      if (found) return {};
+      found = i;
+    }
+  return found;
+}
+
+/// Finds out which layer is which.
+class Finder {
+ public:
+  Finder(std::span<const Layer> layers, const std::string& file, PictureFiles& files)
+      : file_(file), files_(files), now_(files.layers(file).layers), taken_(now_.size()) {
+    for (const Layer& layer : layers) {
+      if (!shows_layer_of(layer, file)) continue;
+      const ImageReference& image = *layer.image;
+      if (std::ranges::find(known_, image.entry, &Known::entry) != known_.end()) continue;
+      LayerMark mark = image.mark.value_or(LayerMark{layer.name, "", {}});
+      known_.push_back({image.entry, std::move(mark), {}});
+    }
+  }
+
+  void find(const LayerChoices& choices) {
+    for (const auto& [from, to] : choices) choose(from, to);
+    if (!has_new_ids())
+      for (Known& known : known_) find_by_id(known);
+    find_by_name([](size_t) { return true; });
+    find_by_pixels();
+    find_by_name([&](size_t i) { return !taken_[i]; });
+    for (Known& known : known_) {
+      const bool stays = known.now || known.mark.lost || is_chosen(known) ||
+                         std::ranges::find(unclear_, &known, &Unclear::known) != unclear_.end();
+      std::vector<size_t> left;
+      for (size_t i = 0; i < now_.size(); ++i)
+        if (!taken_[i]) left.push_back(i);
+      if (!stays && !left.empty()) unclear_.push_back({&known, std::move(left)});
+    }
+  }
+
+  const std::vector<Known>& known() const { return known_; }
+  const LayerMark& mark(size_t now) { return files_.mark(file_, now_[now].entry); }
+  const FileLayer& layer(size_t now) const { return now_[now]; }
+
+  std::vector<UnclearLayer> unclear() const {
+    std::vector<UnclearLayer> all;
+    for (const auto& [known, candidates] : unclear_) {
+      all.push_back({known->entry, known->mark.name, {}});
+      for (const size_t i : candidates) all.back().candidates.push_back(now_[i]);
+    }
+    return all;
+  }
+  std::vector<FileLayer> added() const {
+    std::vector<FileLayer> all;
+    for (size_t i = 0; i < now_.size(); ++i)
+      if (!taken_[i]) all.push_back(now_[i]);
+    return all;
+  }
+
+ private:
+  struct Unclear {
+    const Known* known;
+    std::vector<size_t> candidates;
+  };
+
+  void take(Known& known, size_t now) {
+    known.now = now;
+    taken_[now] = true;
+  }
+
+  bool is_chosen(const Known& known) const {
+    return std::ranges::find(chosen_, known.entry) != chosen_.end();
+  }
+
+  static std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+  void choose(const std::string& from, const std::string& to) {
+    const auto fail = [&](const std::string& what) -> void {
+      throw Error(ErrorKind::bad_input, Path(file_).filename().string() + ": " + what);
+    };
+    auto which = only(known_, [&](const Known& k, size_t) { return k.entry == from; });
+    if (!which) which = only(known_, [&](const Known& k, size_t) { return k.mark.name == from; });
+    if (!which) fail("the scene shows no layer, or several layers, with the name " + quoted(from));
+    Known& known = known_[*which];
+    if (is_chosen(known)) fail(quoted(from) + " is matched twice");
+    chosen_.push_back(known.entry);
+    if (to.empty()) return;
+    auto now = only(now_, [&](const FileLayer& l, size_t) { return l.entry == to; });
+    if (!now) now = only(now_, [&](const FileLayer& l, size_t) { return l.name == to; });
+    if (!now) fail("the file has no layer, or several layers, with the name " + quoted(to));
+    if (taken_[*now]) fail(quoted(to) + " is matched twice");
+    take(known, *now);
+  }
+
+  /// The layer with the same id, and another one with the same name, if there is one.
+  struct Rivals {
+    std::optional<size_t> by_id, by_name;
+  };
+  Rivals rivals_of(const Known& known) const {
+    if (!known.entry.starts_with("id:")) return {};
+    const auto same =
+        only(now_, [&](const FileLayer& l, size_t) { return l.entry == known.entry; });
+    if (same && now_[*same].name == known.mark.name) return {same, {}};
+    return {same,
+            only(now_, [&](const FileLayer& l, size_t) { return l.name == known.mark.name; })};
+  }
+  bool has_pixels_of(const Known& known, size_t now) {
+    return !known.mark.hash.empty() && mark(now).hash == known.mark.hash;
+  }
+
+  /// Some programs number the layers anew whenever they save. This shows where a layer with the
+  /// same name has the same pixels but another id, and the one with the same id has other pixels.
+  bool has_new_ids() {
+    return std::ranges::any_of(known_, [&](const Known& known) {
+      const auto [by_id, by_name] = rivals_of(known);
+      return by_name && has_pixels_of(known, *by_name) && !(by_id && has_pixels_of(known, *by_id));
+    });
+  }
+
+  void find_by_id(Known& known) {
+    const auto [by_id, by_name] = rivals_of(known);
+    if (known.now || is_chosen(known) || !by_id || taken_[*by_id]) return;
+    if (!by_name || has_pixels_of(known, *by_id))
+      take(known, *by_id);
+    else
+      unclear_.push_back({&known, {*by_id, *by_name}});
+  }
+
+  bool is_open(const Known& known) const {
+    return !known.now && !is_chosen(known) &&
+           std::ranges::find(unclear_, &known, &Unclear::known) == unclear_.end();
+  }
+
+  /// Only names that are unique count, both among the layers that are not found yet and, in the
+  /// file, among those that satisfy a condition.
+  template <class Condition>
+  void find_by_name(const Condition& counts) {
+    std::vector<std::pair<size_t, size_t>> pairs;
+    for (size_t k = 0; k < known_.size(); ++k) {
+      const std::string& name = known_[k].mark.name;
+      const auto alone = only(known_, [&](const Known& other, size_t) {
+        return is_open(other) && other.mark.name == name;
+      });
+      const auto now =
+          only(now_, [&](const FileLayer& l, size_t i) { return counts(i) && l.name == name; });
+      if (alone == k && now && !taken_[*now] && !name.empty()) pairs.emplace_back(k, *now);
+    }
+    for (const auto& [k, now] : pairs) take(known_[k], now);
+  }
+
+  void find_by_pixels() {
+    const bool is_needed = std::ranges::any_of(
+        known_, [&](const Known& known) { return is_open(known) && !known.mark.hash.empty(); });
+    if (!is_needed) return;
+    for (size_t k = 0; k < known_.size(); ++k) {
+      const std::string& hash = known_[k].mark.hash;
+      if (hash.empty()) continue;
+      const auto alone = only(known_, [&](const Known& other, size_t) {
+        return is_open(other) && other.mark.hash == hash;
+      });
+      const auto now = only(
+          now_, [&](const FileLayer&, size_t i) { return !taken_[i] && mark(i).hash == hash; });
+      if (alone == k && now) take(known_[k], *now);
+    }
+  }
+
+  const std::string& file_;
+  PictureFiles& files_;
+  const std::vector<FileLayer>& now_;
+  std::vector<bool> taken_;  ///< the layers of the file that were found
+  std::vector<Known> known_;
+  std::vector<std::string> chosen_;  ///< by the user
+  std::vector<Unclear> unclear_;
+};
+
+PixelPosition difference(const PixelPosition& a, const PixelPosition& b) {
+  return {a.x - b.x, a.y - b.y};
+}
+
+/// Layers count as unchanged if they have the same pixels.
+bool is_unchanged(const Known& known, Finder& finder) {
+  return known.now && !known.mark.hash.empty() && finder.mark(*known.now).hash == known.mark.hash;
+}
+
+/// How far the scene's content lies from where it was on the canvas. A canvas is enlarged or
+/// cropped at any side; what most of the unchanged layers do tells which one. Without any, it is
+/// enlarged or cropped at the right and at the bottom, because offsets in files count from the
+/// upper left corner.
+PixelPosition shift_of_canvas(Finder& finder, const PixelPosition& size_before,
+                              const PixelPosition& size_now) {
+  if (size_before == size_now || size_before == PixelPosition{}) return {};
+  std::vector<std::pair<PixelPosition, int>> votes;
+  for (const Known& known : finder.known()) {
+    if (!is_unchanged(known, finder)) continue;
+    const PixelPosition by = difference(finder.mark(*known.now).offset, known.mark.offset);
+    const auto same = std::ranges::find(votes, by, &std::pair<PixelPosition, int>::first);
+    if (same == votes.end())
+      votes.emplace_back(by, 1);
+    else
+      ++same->second;
+  }
+  if (votes.empty()) return {0, size_now.y - size_before.y};
+  return std::ranges::max_element(votes, {}, &std::pair<PixelPosition, int>::second)->first;
+}
+
+/// Other layers may get the entry of a layer that is lost.
+std::string entry_of_lost(const Known& known) {
+  const LayerMark& mark = known.mark;
+  return mark.lost ? known.entry : "lost:" + (mark.hash.empty() ? mark.name : mark.hash);
+}
+
+std::string size_text(const PixelPosition& size) {
+  return std::to_string(size.x) + " x " + std::to_string(size.y);
+}
+
+std::string moved_text(const PixelPosition& by) {
+  const auto part = [](int distance, const char* forward, const char* back) {
+    return distance == 0
+               ? std::string()
+               : std::to_string(std::abs(distance)) + " px " + (distance > 0 ? forward : back);
+  };
+  const std::string across = part(by.x, "to the right", "to the left"),
+                    along = part(by.y, "up", "down");
+  return across + (across.empty() || along.empty() ? "" : " and ") + along;
+}
+
+}  // namespace
+
+const std::string& name_in_file(const Layer& layer) {
+  return layer.image && layer.image->mark ? layer.image->mark->name : layer.name;
+}
+
+void LayerUpdate::apply(Layer& layer) const {
+  if (!shows_layer_of(layer, file)) return;
+  if (is_unclear(layer)) {
+    ImageReference& image = *layer.image;
+    image.corner = difference(image.corner, shift);
+    if (image.mark) {
+      image.mark->offset.x += shift.x;
+      image.mark->offset.y += shift.y;
+    }
+    image.width = width;
+    image.height = height;
+    return;
+  }
+  const auto found = changes.find(key_of(*layer.image));
+  if (found == changes.end()) return;
+  const auto& [entry, corner, moved, lost] = found->second;
+  ImageReference& image = *layer.image;
+  if (lost) {
+    if (!image.mark) image.mark = LayerMark{layer.name, "", {}};
+    image.mark->lost = true;
+    image.entry = entry;
+    return;
+  }
+  image.entry = entry;
+  image.corner = corner;
+  if (image.mark) image.mark->lost = false;
+  const Complex by(moved.x, moved.y);
+  layer.placement = composed(layer.placement, Similarity{1, 0, by});
+}
+
+bool LayerUpdate::is_unclear(const Layer& layer) const {
+  return shows_layer_of(layer, file) &&
+         std::ranges::find(unclear, layer.image->entry, &UnclearLayer::entry) != unclear.end();
+}
+
+bool needs_layer_update(std::span<const Layer> layers, const std::string& file,
+                        PictureFiles& files) {
+  return std::ranges::any_of(layers, [&](const Layer& layer) {
+    if (!shows_layer_of(layer, file)) return false;
+    const ImageReference& image = *layer.image;
+    if (!image.sha256.empty()) return image.sha256 != files.sha256(file);
+    const FileLayers& now = files.layers(file);
+    return image.width > 0 && (image.width != now.width || image.height != now.height);
+  });
+}
+
+LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
+                         PictureFiles& files, const LayerChoices& choices) {
+  Finder finder(layers, file, files);
+  finder.find(choices);
+  LayerUpdate update;
+  update.file = file;
+  update.report.file = Path(file).filename().string();
+  update.unclear = finder.unclear();
+  update.added = finder.added();
+  PixelPosition before;
+  for (const Layer& layer : layers)
+    if (before == PixelPosition{} && shows_layer_of(layer, file))
+      before = {layer.image->width, layer.image->height};
+  const PixelPosition now{files.layers(file).width, files.layers(file).height},
+      shift = shift_of_canvas(finder, before, now);
+  update.shift = shift;
+  update.width = now.x;
+  update.height = now.y;
+  if (before != now && before != PixelPosition{})
+    update.report.add("", "its canvas has changed from " + size_text(before) + " to " +
+                              size_text(now) + " pixels; what is in the scene stays where it is");
+  size_t repainted = 0;
+  for (const Known& known : finder.known()) {
+    const bool is_unclear = std::ranges::find(update.unclear, known.entry, &UnclearLayer::entry) !=
+                            update.unclear.end();
+    if (is_unclear) continue;
+    if (!known.now) {
+      if (!known.mark.lost)
+        update.report.add(known.mark.name, "is no longer in the file; its cage and pins are kept");
+    } else {
+      if (known.mark.lost) update.report.add(known.mark.name, "is in the file again");
+      const std::string& name = finder.layer(*known.now).name;
+      if (name != known.mark.name)
+        update.report.add(known.mark.name, "is now called '" + name + "'");
+    }
+    const bool same = is_unchanged(known, finder);
+    repainted += known.now && !same && !known.mark.hash.empty();
+    const PixelPosition moved =
+        same ? difference(difference(finder.mark(*known.now).offset, known.mark.offset), shift)
+             : PixelPosition{};
+    if (moved != PixelPosition{})
+      update.report.add(known.mark.name, "has moved by " + moved_text(moved) +
+                                             "; its cage and pins have moved with it");
+    for (const Layer& layer : layers) {
+      if (!shows_layer_of(layer, file) || layer.image->entry != known.entry) continue;
+      const PixelPosition& corner = layer.image->corner;
+      update.changes[key_of(*layer.image)] =
+          known.now ? LayerChange{finder.layer(*known.now).entry,
+                                  difference(difference(corner, shift), moved), moved}
+                    : LayerChange{entry_of_lost(known), corner, {}, true};
+    }
+  }
+  if (repainted > 0)
+    update.report.add("", std::to_string(repainted) +
+                              (repainted == 1 ? " layer was repainted" : " layers were repainted"));
+  for (const FileLayer& layer : update.added)
+    update.report.add(layer.name, "is new in the file, and not in the scene");
+  return update;
+}
+
+Scene with_added_layers(Scene scene, const LayerUpdate& update, PictureFiles& files,
+                        Pictures& pictures) {
+  const std::vector<FileLayer>& now = files.layers(update.file).layers;
+  std::vector<Layer> layers = layers_of(scene);
+  if (layers.size() + update.added.size() > kMaxLayers)
+    throw Error(ErrorKind::bad_input,
+                "a scene has at most " + std::to_string(kMaxLayers) + " layers");
+  const int edited = layers[scene.edited].id;
+  // The plane in which the file's canvas lies for most layers.
+  PixelPosition corner;
+  int last = 0;
+  for (const Layer& layer : layers) last = std::max(last, layer.id);
+  for (const Layer& layer : layers)
+    if (shows_layer_of(layer, update.file) && is_identity(layer.placement)) {
+      corner = layer.image->corner;
+      break;
+    }
+  std::ptrdiff_t place = 0;  // above the layers that are below it in the file
+  for (const FileLayer& each : now) {
+    for (size_t i = 0; i < layers.size(); ++i)
+      if (shows_layer_of(layers[i], update.file) && layers[i].image->entry == each.entry)
+        place = static_cast<std::ptrdiff_t>(i) + 1;
+    if (std::ranges::find(update.added, each.entry, &FileLayer::entry) == update.added.end())
+      continue;
+    Layer layer = layer_in_file(update.file, each, corner, files, pictures);
+    layer.id = ++last;
+    layers.insert(layers.begin() + place++, std::move(layer));
+  }
+  reserve_layer_ids(last);
+  scene.edited =
+      static_cast<size_t>(std::ranges::find(layers, edited, &Layer::id) - layers.begin());
+  scene.layers = shared(std::move(layers));
+  return scene;
+}
+
+Layer layer_in_file(const Path& file, const FileLayer& in_file, const PixelPosition& corner,
+                    PictureFiles& files, Pictures& pictures) {
+  ImageReference reference = reference_in(file, in_file.entry);
+  reference.corner = corner;
+  Picture picture = files.picture(reference);
+  Layer layer;
+  layer.image = described(reference, picture);
+  pictures.put(*layer.image, std::move(picture));
+  layer.name = in_file.name;
+  layer.visible = in_file.visible;
+  layer.opacity = in_file.opacity;
+  layer.blending = in_file.blending;
+  layer.clipped = in_file.clipped;
+  return layer;
+}
+
+}  // namespace holomorph
