@@ -339,7 +339,7 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
     } else {
       if (known.mark.lost) update.report.add(known.mark.name, "is in the file again");
       const std::string& name = finder.layer(*known.now).name;
-      if (name != known.mark.name)
+      if (name != known.mark.name && !known.mark.name.empty())
         update.report.add(known.mark.name, "is now called '" + name + "'");
     }
     const bool same = is_unchanged(known, finder);
