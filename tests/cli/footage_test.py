@@ -55,7 +55,50 @@ def shown_frame(clip, time):
 H264 = ("-c:v", "libx264", "-pix_fmt", "yuv420p")
 
 
+def yuv_of(color, red, blue):
+    """The 8-bit Y, Cb and Cr of a color by ITU-R BT.709 or BT.601, which differ in the weights of red and blue."""
+    r, g, b = (c / 255 for c in color)
+    y = red * r + (1 - red - blue) * g + blue * b
+    return [round(16 + 219 * y), round(128 + 224 * (b - y) / (2 - 2 * blue)), round(128 + 224 * (r - y) / (2 - 2 * red))]
+
+
 class Footage(Case):
+    def flat_film(self, size, yuv, *options, depth=8):
+        """A film of one color, given by its samples."""
+        name, (w, h) = self.path("flat.mp4"), size
+        kind, data = ("yuv444p", "u1") if depth == 8 else ("yuv444p10le", "<u2")
+        frame = b"".join(numpy.full(w * h, value, data).tobytes() for value in yuv)
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pixel_format", kind, "-video_size", f"{w}x{h}", "-framerate", "5",
+                        "-i", "-", *(options or ("-c:v", "libx264", "-qp", "0")), name], input=3 * frame, check=True)
+        self.said = self.good("new", name, "--out", self.path("flat.json"), "--force").stderr
+        self.good("render", self.path("flat.json"), "--time", "0", "--out", self.path("flat.png"), "--force")
+        return numpy.asarray(Image.open(self.path("flat.png")).convert("RGB"))[h // 2, w // 2].astype(int)
+
+    def test_films_without_color_tags_are_read_as_players_read_them(self):
+        rng = random.Random(seed_of("untagged films", 1))
+        for size, red, blue in (((1280, 720), 0.2126, 0.0722), ((720, 480), 0.299, 0.114)):
+            color = [rng.randrange(40, 216) for _ in range(3)]
+            with self.subTest(size=size, color=color):
+                self.assertLessEqual(numpy.abs(self.flat_film(size, yuv_of(color, red, blue)) - color).max(), 2)
+                self.assertNotIn("HDR", self.said)
+
+    def test_hdr_films_are_toned_down(self):
+        """Gray stays gray, brighter stays brighter, black is black, and diffuse white (203 cd/m2) is nearly white."""
+        for transfer, white in (("arib-std-b67", 0.75), ("smpte2084", 0.58)):
+            shown = []
+            for level in (0, 0.4 * white, 0.7 * white, white, 1):
+                yuv = [round(64 + 876 * level), 512, 512]
+                options = ("-c:v", "libx265", "-pix_fmt", "yuv444p10le", "-tag:v", "hvc1", "-x265-params",
+                           f"log-level=error:lossless=1:colorprim=bt2020:transfer={transfer}:colormatrix=bt2020nc",
+                           "-color_primaries", "bt2020", "-color_trc", transfer, "-colorspace", "bt2020nc")
+                pixel = self.flat_film((64, 64), yuv, *options, depth=10)
+                self.assertLessEqual(numpy.ptp(pixel), 2, (transfer, level, pixel))
+                self.assertIn("HDR colors are toned down", self.said)
+                shown.append(pixel[0])
+            self.assertTrue((numpy.diff(shown) > 0).all(), (transfer, shown))
+            self.assertLessEqual(shown[0], 2)
+            self.assertTrue(170 <= shown[3] <= 250, (transfer, shown))
+
     def setUp(self):
         super().setUp()
         self.seed = seed_of(self.id())

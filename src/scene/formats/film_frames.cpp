@@ -35,10 +35,14 @@ struct KeyFrame {
 };
 
 /// What the decoder needs to know about a film.
+/// What players take for high definition.
+constexpr size_t kLeastHdWidth = 1280, kMostSdHeight = 576;
+
 struct ProbedFilm {
   Path file;
   FilmInfo info;
   std::string decoder = {};         ///< empty: the usual one
+  bool is_untagged_hd = false;      ///< a large film that does not say how it stores colors
   std::vector<KeyFrame> keys = {};  ///< in the order in which they are shown
 };
 
@@ -150,7 +154,8 @@ ProbedFilm probed_film(const Path& file) {
   read_start(file, 1);  // throws if this is not a readable file
   const Json answer = Json::parse(
       probed(file, {"-show_entries",
-                    "stream=codec_type,codec_name,width,height,avg_frame_rate,r_frame_rate:"
+                    "stream=codec_type,codec_name,width,height,avg_frame_rate,r_frame_rate,"
+                    "color_space,color_transfer:"
                     "stream_disposition=attached_pic:stream_tags=alpha_mode",
                     "-of", "json"}),
       nullptr, false);
@@ -173,13 +178,32 @@ ProbedFilm probed_film(const Path& file) {
   if (tags != video->end() && tags->value("alpha_mode", "") == "1" &&
       (codec == "vp8" || codec == "vp9"))
     film.decoder = codec == "vp8" ? "libvpx" : "libvpx-vp9";
+  const std::string transfer = video->value("color_transfer", ""),
+                    matrix = video->value("color_space", "unknown");
+  film.info.is_hdr = transfer == "smpte2084" || transfer == "arib-std-b67";
+  film.is_untagged_hd =
+      matrix == "unknown" && (side("width") >= kLeastHdWidth || side("height") > kMostSdHeight);
   measure_times(film);
   return film;
 }
 
 /// Frames as PAM pictures, with square pixels.
-const char* const kConversion =
-    "scale=trunc(iw*sar+0.5):ih:flags=bicubic+accurate_rnd+full_chroma_int,setsar=1,format=rgba";
+std::string conversion(const std::string& matrix = "") {
+  return "scale=trunc(iw*sar+0.5):ih:flags=bicubic+accurate_rnd+full_chroma_int" + matrix +
+         ",setsar=1,format=rgba";
+}
+
+/// Also shows the colors of HDR films in sRGB: white is that of a page (203 cd/m2, ITU-R BT.2408),
+/// and from 60 % of it on, light is compressed. In large films that do not say how they store
+/// colors, it is as BT.709 says, and as players assume.
+std::string conversion_of(const ProbedFilm& film) {
+  if (film.info.is_hdr)
+    return "zscale=transfer=linear:npl=203,format=gbrpf32le,zscale=primaries=bt709,"
+           "tonemap=mobius:param=0.6:desat=0,zscale=transfer=iec61966-2-1:matrix=gbr:range=full,"
+           "format=gbrp," +
+           conversion();
+  return conversion(film.is_untagged_hd ? ":in_color_matrix=bt709" : "");
+}
 const std::vector<std::string> kOutput{"-c:v", "pam", "-f", "image2pipe", "pipe:1"};
 
 std::vector<std::string> decoding_command() {
@@ -204,7 +228,7 @@ std::vector<std::string> command_of(const ProbedFilm& film, int first) {
                    decimal(std::prev(after)->stored, 9)});
   append(words, {"-i", "file:" + film.file.string(), "-map", "0:V:0", "-vf",
                  "fps=fps=" + decimal(film.info.frames_per_second, 9) + ":start_time=" + at +
-                     ":round=near," + kConversion,
+                     ":round=near," + conversion_of(film),
                  "-fps_mode", "passthrough"});
   append(words, kOutput);
   return words;
@@ -348,7 +372,7 @@ Image first_frame_of_film(const Path& file) {
   read_start(file, 1);
   std::vector<std::string> words = decoding_command();
   append(words,
-         {"-i", "file:" + file.string(), "-map", "0:V:0", "-frames:v", "1", "-vf", kConversion});
+         {"-i", "file:" + file.string(), "-map", "0:V:0", "-frames:v", "1", "-vf", conversion()});
   append(words, kOutput);
   const std::atomic<bool> canceled = false;
   if (std::optional<Image> first = FrameStream(file, words, 0, canceled).read())

@@ -14,7 +14,8 @@ struct FilmInfo {
   int frames = 0;
   double frames_per_second = 24;
   bool has_sound = false;
-  double start = 0;  ///< the time stamp of the first frame, in seconds
+  double start = 0;     ///< the time stamp of the first frame, in seconds
+  bool is_hdr = false;  ///< colors are brighter than those of screens, and are toned down
 };
 
 /// An open film. Frames are numbered from 0 and have equal durations.
