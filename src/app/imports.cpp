@@ -49,6 +49,9 @@ std::string Imports::add_new_layers() {
        open = open_pixels()](Job::Progress&) {
         PictureFiles files(open);
         const LayerUpdate update = layer_update(layers_of(scene), file, files);
+        if (!update.unclear.empty())
+          throw Error(ErrorKind::bad_input,
+                      "First choose which layer '" + update.unclear[0].name + "' is now.");
         *count = update.added.size();
         added->scene = with_added_layers(scene, update, files, added->pictures);
       },
@@ -168,9 +171,8 @@ std::string Imports::find_picture(const Path& path, const std::string& asked) {
       const ImageReference& was = *scene.layers[i]->image;
       const bool chosen = was.file == asked;
       const Path file = chosen ? path : path.parent_path() / Path(was.file).filename();
-      ImageReference now = reference_in(file, was.entry);
-      now.extra = was.extra;
-      now.clip = was.clip;
+      ImageReference now = was;
+      now.file = absolute_path(file).string();
       try {
         Picture picture = files.picture(now);
         if (chosen || picture.sha256 == was.sha256)

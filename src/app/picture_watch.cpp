@@ -8,14 +8,18 @@ namespace holomorph {
 
 void PictureWatch::forget() {
   changing_.clear();
+  waiting_.reset();
   tried_.clear();
   if (reading_) reading_->cancel();
 }
 
 void PictureWatch::look() {
   if (reading_) {
-    if (reading_->ended()) take_over();
-    return;
+    if (!reading_->ended()) return;
+    take_over();
+    if (!waiting_) return;
+    const auto [file, choices] = *std::exchange(waiting_, std::nullopt);
+    return read({}, {file}, choices);
   }
   Changed now = changed();
   if (!now.empty() && now == changing_)
@@ -65,8 +69,10 @@ void PictureWatch::start(const Changed& changed) {
 }
 
 void PictureWatch::find_layers(const std::string& file, const LayerChoices& choices) {
-  if (reading_) reading_->cancel();
-  read({}, {file}, choices);
+  if (reading_)
+    waiting_ = {file, choices};
+  else
+    read({}, {file}, choices);
 }
 
 namespace {
@@ -76,8 +82,8 @@ FoundLayers found_layers(const std::vector<Layer>& layers, const std::string& fi
                          PictureFiles& files, const LayerChoices& choices) {
   FoundLayers found{layer_update(layers, file, files, choices), {}, {}};
   for (Layer layer : layers) {
-    if (found.update.is_unclear(layer)) continue;
     found.update.apply(layer);
+    if (found.update.is_unclear(layer)) continue;
     const ImageReference& image = *layer.image;
     const bool is_read = std::ranges::any_of(found.pictures, [&](const auto& other) {
       return other.first.entry == image.entry && other.first.corner == image.corner;
@@ -120,7 +126,7 @@ void PictureWatch::take_over() {
   if (const auto error = ended->error()) return workspace_.messages.complain(*error);
   workspace_.messages.say(said);
   for (FoundLayers& found : read_->layered)
-    if (!found.update.unclear.empty()) return ask_(std::move(found));
+    if (!found.update.unclear.empty()) ask_(std::move(found));
 }
 
 /// Returns what to say about it.

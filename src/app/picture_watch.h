@@ -51,6 +51,7 @@ class PictureWatch {
 
   Workspace& workspace_;
   std::function<void(FoundLayers)> ask_;
+  std::optional<std::pair<std::string, LayerChoices>> waiting_;  ///< for what is being read
   Changed changing_;  ///< changed at the last check; other programs may still be writing them
   std::map<std::string, Time> tried_;  ///< modification times of the files when last tried
   std::shared_ptr<Read> read_;

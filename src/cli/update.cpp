@@ -28,6 +28,7 @@ void run(const UpdateCommand& command) {
   LoadOptions options;
   options.reach.everywhere = command.outside;
   options.choices = choices_of(command.matches);
+  options.looks_for_layers = command.adds;
   LoadedScene loaded = load_scene(command.scene, options);
   std::string text = loaded.report.text();
   size_t added = 0;
@@ -39,7 +40,7 @@ void run(const UpdateCommand& command) {
     loaded.scene = with_added_layers(std::move(loaded.scene), update, files, loaded.pictures);
     added += update.added.size();
   }
-  if (loaded.updates.empty()) {
+  if (loaded.updates.empty() && !command.adds) {
     std::fprintf(stderr, "%s: its files with layers have not changed\n",
                  command.scene.string().c_str());
     return;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "core/error.h"
@@ -51,10 +52,11 @@ class LayerMesh {
   /// The positions of the layer's own mesh in its own plane.
   const Points& positions(const Time& time) {
     if (!map_) return rest_;
-    if (known_ && known_->first == time) return known_->second;
+    if (const auto known = known_.find(time); known != known_.end()) return known->second;
+    constexpr size_t kMostBytes = size_t{256} << 20;
+    if ((known_.size() + 1) * rest_.size() * sizeof(Complex) > kMostBytes) known_.clear();
     const VectorXc f = map_->on_mesh(map_->frame(time)).f;
-    known_.emplace(time, Points(f.begin(), f.end()));
-    return known_->second;
+    return known_.emplace(time, Points(f.begin(), f.end())).first->second;
   }
 
   Similarity motion(const Time& time, const Attachment& attachment) {
@@ -139,7 +141,8 @@ class LayerMesh {
       std::vector<std::pair<double, double>> off;  // how far, and when
       for (const double time : options.times) {
         Points kept;
-        for (const int v : coarser_->kept) kept.push_back(positions(time)[static_cast<size_t>(v)]);
+        const Points& here = positions(time);
+        for (const int v : coarser_->kept) kept.push_back(here[static_cast<size_t>(v)]);
         const double far = distance(time, kept);
         if (far > kSlack * tolerance) off.emplace_back(far, time);
       }
@@ -167,7 +170,7 @@ class LayerMesh {
   std::optional<CoarserMesh> coarser_;  ///< none if all are exported
   std::vector<Triangle> triangles_;
   std::shared_ptr<const Fringe> fringe_;
-  std::optional<std::pair<Time, Points>> known_;  ///< the last positions
+  std::map<Time, Points> known_;  ///< the last positions
   std::optional<Anchor> anchor_;
 };
 

@@ -1,7 +1,10 @@
 // A saved scene has paths relative to its folder. An autosave has absolute paths.
 #include "scene/document.h"
 
+#include <map>
 #include <random>
+#include <set>
+#include <tuple>
 
 #include "core/error.h"
 #include "scene/formats/file_kinds.h"
@@ -126,30 +129,37 @@ void Document::describe_films() {
 
 std::vector<Layer> Document::layers_of_file(const std::string& file) const {
   std::vector<Layer> all;
+  std::set<const Layer*> seen;
+  std::set<std::tuple<std::string, int, int>> kinds;
   for (const History::Entry& entry : history_.entries())
-    for (const SharedLayer& layer : entry.scene.layers)
-      if (layer->image && layer->image->file == file && !layer->image->entry.empty() &&
-          std::ranges::none_of(all,
-                               [&](const Layer& other) { return *other.image == *layer->image; })) {
-        Layer known;  // without its deformation
-        known.name = layer->name;
-        known.image = layer->image;
-        all.push_back(std::move(known));
-      }
+    for (const SharedLayer& layer : entry.scene.layers) {
+      if (!seen.insert(&*layer).second || !layer->image || layer->image->file != file ||
+          layer->image->entry.empty())
+        continue;
+      const auto& [x, y] = layer->image->corner;
+      if (!kinds.insert({layer->image->entry, x, y}).second) continue;
+      Layer known;  // without its deformation
+      known.name = layer->name;
+      known.image = layer->image;
+      all.push_back(std::move(known));
+    }
   return all;
 }
 
 void Document::update_layers(const LayerUpdate& update) {
+  std::map<const Layer*, SharedLayer> known;  // steps of the history share most of their layers
+  const auto updated_layer = [&](const SharedLayer& before) {
+    if (!before->image || before->image->file != update.file) return before;
+    if (const auto found = known.find(&*before); found != known.end()) return found->second;
+    Layer layer = *before;
+    update.apply(layer);
+    if (const Picture* picture = pictures_.find(*layer.image); picture && picture->mark)
+      layer.image = described(*layer.image, *picture);
+    return known.emplace(&*before, SharedLayer(std::move(layer))).first->second;
+  };
   const auto updated = [&](const Scene& scene) {
     Scene result = scene;
-    std::vector<Layer> layers = layers_of(scene);
-    for (Layer& layer : layers) {
-      if (!layer.image || layer.image->file != update.file) continue;
-      update.apply(layer);
-      if (const Picture* picture = pictures_.find(*layer.image); picture && picture->mark)
-        layer.image = described(*layer.image, *picture);
-    }
-    result.layers = shared(std::move(layers));
+    for (SharedLayer& layer : result.layers) layer = updated_layer(layer);
     return result;
   };
   history_.revise_all(updated);

@@ -14,6 +14,14 @@ std::pair<std::string, std::pair<int, int>> key_of(const ImageReference& image) 
   return {image.entry, {image.corner.x, image.corner.y}};
 }
 
+/// The entries of layers that are lost or unclear begin so: other layers may get their old ones.
+constexpr std::string_view kLost = "lost:", kUnclear = "unclear:";
+
+/// The entry that an unclear layer had.
+std::string entry_before(const std::string& entry) {
+  return entry.starts_with(kUnclear) ? entry.substr(kUnclear.size()) : entry;
+}
+
 bool shows_layer_of(const Layer& layer, const std::string& file) {
   return layer.image && layer.image->file == file && !layer.image->entry.empty();
 }
@@ -70,21 +78,44 @@ class Finder {
   }
 
   const std::vector<Known>& known() const { return known_; }
-  const LayerMark& mark(size_t now) { return files_.mark(file_, now_[now].entry); }
+  /// A layer that cannot be decoded has no hash.
+  const LayerMark& mark(size_t now) {
+    static const LayerMark kUnknown;
+    try {
+      return files_.mark(file_, now_[now].entry);
+    } catch (const Error&) {
+      return kUnknown;
+    }
+  }
+  bool is_unchanged(const Known& known) {
+    return known.now && !known.mark.lost && has_pixels_of(known, *known.now);
+  }
+  /// An entry that no layer has or had.
+  std::string free_entry(std::string_view prefix, const std::string& before) const {
+    if (before.starts_with(prefix)) return before;
+    std::string entry = std::string(prefix) + entry_before(before);
+    while (std::ranges::find(known_, entry, &Known::entry) != known_.end()) entry += "'";
+    return entry;
+  }
   const FileLayer& layer(size_t now) const { return now_[now]; }
 
   std::vector<UnclearLayer> unclear() const {
     std::vector<UnclearLayer> all;
     for (const auto& [known, candidates] : unclear_) {
       all.push_back({known->entry, known->mark.name, {}});
-      for (const size_t i : candidates) all.back().candidates.push_back(now_[i]);
+      for (const size_t i : candidates)
+        if (!taken_[i]) all.back().candidates.push_back(now_[i]);
     }
     return all;
   }
   std::vector<FileLayer> added() const {
     std::vector<FileLayer> all;
-    for (size_t i = 0; i < now_.size(); ++i)
-      if (!taken_[i]) all.push_back(now_[i]);
+    for (size_t i = 0; i < now_.size(); ++i) {
+      const bool is_candidate = std::ranges::any_of(unclear_, [&](const Unclear& unclear) {
+        return std::ranges::find(unclear.candidates, i) != unclear.candidates.end();
+      });
+      if (!taken_[i] && !is_candidate) all.push_back(now_[i]);
+    }
     return all;
   }
 
@@ -111,7 +142,9 @@ class Finder {
     };
     auto which = only(known_, [&](const Known& k, size_t) { return k.entry == from; });
     if (!which) which = only(known_, [&](const Known& k, size_t) { return k.mark.name == from; });
-    if (!which) fail("the scene shows no layer, or several layers, with the name " + quoted(from));
+    if (!which)
+      fail("the scene shows several layers with the name " + quoted(from) +
+           "; name its entry in the scene file");
     Known& known = known_[*which];
     if (is_chosen(known)) fail(quoted(from) + " is matched twice");
     chosen_.push_back(known.entry);
@@ -128,9 +161,9 @@ class Finder {
     std::optional<size_t> by_id, by_name;
   };
   Rivals rivals_of(const Known& known) const {
-    if (!known.entry.starts_with("id:")) return {};
-    const auto same =
-        only(now_, [&](const FileLayer& l, size_t) { return l.entry == known.entry; });
+    const std::string id = entry_before(known.entry);
+    if (!id.starts_with("id:")) return {};
+    const auto same = only(now_, [&](const FileLayer& l, size_t) { return l.entry == id; });
     if (same && now_[*same].name == known.mark.name) return {same, {}};
     return {same,
             only(now_, [&](const FileLayer& l, size_t) { return l.name == known.mark.name; })};
@@ -208,11 +241,6 @@ PixelPosition difference(const PixelPosition& a, const PixelPosition& b) {
   return {a.x - b.x, a.y - b.y};
 }
 
-/// Layers count as unchanged if they have the same pixels.
-bool is_unchanged(const Known& known, Finder& finder) {
-  return known.now && !known.mark.hash.empty() && finder.mark(*known.now).hash == known.mark.hash;
-}
-
 /// How far the scene's content lies from where it was on the canvas. A canvas is enlarged or
 /// cropped at any side; what most of the unchanged layers do tells which one. Without any, it is
 /// enlarged or cropped at the right and at the bottom, because offsets in files count from the
@@ -222,7 +250,7 @@ PixelPosition shift_of_canvas(Finder& finder, const PixelPosition& size_before,
   if (size_before == size_now || size_before == PixelPosition{}) return {};
   std::vector<std::pair<PixelPosition, int>> votes;
   for (const Known& known : finder.known()) {
-    if (!is_unchanged(known, finder)) continue;
+    if (!finder.is_unchanged(known)) continue;
     const PixelPosition by = difference(finder.mark(*known.now).offset, known.mark.offset);
     const auto same = std::ranges::find(votes, by, &std::pair<PixelPosition, int>::first);
     if (same == votes.end())
@@ -232,12 +260,6 @@ PixelPosition shift_of_canvas(Finder& finder, const PixelPosition& size_before,
   }
   if (votes.empty()) return {0, size_now.y - size_before.y};
   return std::ranges::max_element(votes, {}, &std::pair<PixelPosition, int>::second)->first;
-}
-
-/// Other layers may get the entry of a layer that is lost.
-std::string entry_of_lost(const Known& known) {
-  const LayerMark& mark = known.mark;
-  return mark.lost ? known.entry : "lost:" + (mark.hash.empty() ? mark.name : mark.hash);
 }
 
 std::string size_text(const PixelPosition& size) {
@@ -263,37 +285,34 @@ const std::string& name_in_file(const Layer& layer) {
 
 void LayerUpdate::apply(Layer& layer) const {
   if (!shows_layer_of(layer, file)) return;
-  if (is_unclear(layer)) {
-    ImageReference& image = *layer.image;
-    image.corner = difference(image.corner, shift);
-    if (image.mark) {
-      image.mark->offset.x += shift.x;
-      image.mark->offset.y += shift.y;
-    }
-    image.width = width;
-    image.height = height;
-    return;
-  }
   const auto found = changes.find(key_of(*layer.image));
   if (found == changes.end()) return;
-  const auto& [entry, corner, moved, lost] = found->second;
+  const auto& [entry, corner, moved, is_here, lost] = found->second;
   ImageReference& image = *layer.image;
-  if (lost) {
-    if (!image.mark) image.mark = LayerMark{layer.name, "", {}};
-    image.mark->lost = true;
-    image.entry = entry;
-    return;
-  }
+  if (image.entry != entry) image.sha256.clear();  // so that the mark is made anew
   image.entry = entry;
   image.corner = corner;
-  if (image.mark) image.mark->lost = false;
-  const Complex by(moved.x, moved.y);
-  layer.placement = composed(layer.placement, Similarity{1, 0, by});
+  image.width = width;
+  image.height = height;
+  if (is_here) {
+    if (image.mark) image.mark->lost = false;
+    if (moved != PixelPosition{})
+      layer.placement = composed(layer.placement, Similarity{1, 0, Complex(moved.x, moved.y)});
+    return;
+  }
+  // It is still what it was, on the canvas as it is now.
+  if (!image.mark) image.mark = LayerMark{layer.name, "", {}};
+  image.mark->lost = lost;
+  image.mark->offset.x += shift.x;
+  image.mark->offset.y += shift.y;
 }
 
 bool LayerUpdate::is_unclear(const Layer& layer) const {
-  return shows_layer_of(layer, file) &&
-         std::ranges::find(unclear, layer.image->entry, &UnclearLayer::entry) != unclear.end();
+  return shows_layer_of(layer, file) && is_entry_of_unclear(layer.image->entry);
+}
+
+bool is_entry_of_unclear(const std::string& entry) {
+  return entry.starts_with(kUnclear);
 }
 
 bool needs_layer_update(std::span<const Layer> layers, const std::string& file,
@@ -318,7 +337,8 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
   update.added = finder.added();
   PixelPosition before;
   for (const Layer& layer : layers)
-    if (before == PixelPosition{} && shows_layer_of(layer, file))
+    if (before == PixelPosition{} && shows_layer_of(layer, file) &&
+        !(layer.image->mark && layer.image->mark->lost))
       before = {layer.image->width, layer.image->height};
   const PixelPosition now{files.layers(file).width, files.layers(file).height},
       shift = shift_of_canvas(finder, before, now);
@@ -330,11 +350,15 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
                               size_text(now) + " pixels; what is in the scene stays where it is");
   size_t repainted = 0;
   for (const Known& known : finder.known()) {
-    const bool is_unclear = std::ranges::find(update.unclear, known.entry, &UnclearLayer::entry) !=
-                            update.unclear.end();
-    if (is_unclear) continue;
+    const auto unclear = std::ranges::find(update.unclear, known.entry, &UnclearLayer::entry);
+    const bool is_unclear = unclear != update.unclear.end();
+    const std::string other_entry =
+        known.now         ? ""
+        : known.mark.lost ? known.entry
+                          : finder.free_entry(is_unclear ? kUnclear : kLost, known.entry);
+    if (is_unclear) unclear->entry = other_entry;
     if (!known.now) {
-      if (!known.mark.lost)
+      if (!known.mark.lost && !is_unclear)
         update.report.add(known.mark.name, "is no longer in the file; its cage and pins are kept");
     } else {
       if (known.mark.lost) update.report.add(known.mark.name, "is in the file again");
@@ -342,8 +366,8 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
       if (name != known.mark.name && !known.mark.name.empty())
         update.report.add(known.mark.name, "is now called '" + name + "'");
     }
-    const bool same = is_unchanged(known, finder);
-    repainted += known.now && !same && !known.mark.hash.empty();
+    const bool same = finder.is_unchanged(known);
+    repainted += known.now && !same && !known.mark.hash.empty() && !known.mark.lost;
     const PixelPosition moved =
         same ? difference(difference(finder.mark(*known.now).offset, known.mark.offset), shift)
              : PixelPosition{};
@@ -355,8 +379,8 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
       const PixelPosition& corner = layer.image->corner;
       update.changes[key_of(*layer.image)] =
           known.now ? LayerChange{finder.layer(*known.now).entry,
-                                  difference(difference(corner, shift), moved), moved}
-                    : LayerChange{entry_of_lost(known), corner, {}, true};
+                                  difference(difference(corner, shift), moved), moved, true}
+                    : LayerChange{other_entry, difference(corner, shift), {}, false, !is_unclear};
     }
   }
   if (repainted > 0)
@@ -384,7 +408,11 @@ Scene with_added_layers(Scene scene, const LayerUpdate& update, PictureFiles& fi
       corner = layer.image->corner;
       break;
     }
-  std::ptrdiff_t place = 0;  // above the layers that are below it in the file
+  // Above the layers that are below it in the file, or else below all layers of the file.
+  std::ptrdiff_t place =
+      std::ranges::find_if(layers,
+                           [&](const Layer& layer) { return shows_layer_of(layer, update.file); }) -
+      layers.begin();
   for (const FileLayer& each : now) {
     for (size_t i = 0; i < layers.size(); ++i)
       if (shows_layer_of(layers[i], update.file) && layers[i].image->entry == each.entry)

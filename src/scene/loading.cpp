@@ -139,6 +139,10 @@ void withhold_unreachable(std::vector<Layer>& layers, const Path& scene, const L
 namespace {
 
 /// What to say about the first layer of an update that is unclear.
+std::string unclear_text(const LayerUpdate& update) {
+  return update.report.file + ": the file has changed, and it is not clear which layer '" +
+         update.unclear[0].name + "' is now";
+}
 std::string question_of(const LayerUpdate& update) {
   const UnclearLayer& unclear = update.unclear[0];
   std::string text = update.report.file + ": the file has changed, and the layer '" + unclear.name +
@@ -146,7 +150,11 @@ std::string question_of(const LayerUpdate& update) {
   constexpr size_t kMostNamed = 5;
   const size_t named = std::min(unclear.candidates.size(), kMostNamed);
   for (size_t i = 0; i < named; ++i)
-    text += (i == 0 ? "'" : i + 1 == named ? " or '" : ", '") + unclear.candidates[i].name + "'";
+    text += (i == 0                                                 ? "'"
+             : i + 1 == named && named == unclear.candidates.size() ? " or '"
+                                                                    : ", '") +
+            unclear.candidates[i].name + "'";
+  if (named < unclear.candidates.size()) text += " or another layer";
   return text + "; use holomorph update with --match '" + unclear.name +
          "=NAME', or with no name after = if it is none of them";
 }
@@ -174,9 +182,11 @@ void check_choices(std::span<const Layer> layers, const std::set<std::string>& f
                   "the scene has no layer of a file with the name '" + choice.first + "'");
 }
 
-/// Finds the layers of the files that have changed.
-void update_layers(std::vector<Layer>& layers, const LoadOptions& options, PictureFiles& files,
-                   LoadedScene& loaded) {
+/// Finds the layers of the files that have changed. Returns the files in which this fails, whose
+/// layers must not be read.
+std::set<std::string> update_layers(std::vector<Layer>& layers, const LoadOptions& options,
+                                    PictureFiles& files, LoadedScene& loaded) {
+  std::set<std::string> failed;
   std::set<std::string> names;
   for (const Layer& layer : layers)
     if (layer.image && !layer.image->entry.empty()) names.insert(layer.image->file);
@@ -185,17 +195,21 @@ void update_layers(std::vector<Layer>& layers, const LoadOptions& options, Pictu
     if (loaded.pictures.withheld().contains(name) || !path_exists(name)) continue;
     try {
       const LayerChoices choices = choices_for(name, layers, options.choices);
-      if (choices.empty() && !needs_layer_update(layers, name, files)) continue;
+      if (choices.empty() && !options.looks_for_layers && !needs_layer_update(layers, name, files))
+        continue;
       LayerUpdate update = layer_update(layers, name, files, choices);
       if (!update.unclear.empty() && !options.pictures_may_be_missing)
         throw Error(ErrorKind::bad_input, question_of(update));
       for (Layer& layer : layers) update.apply(layer);
+      if (!update.unclear.empty() && loaded.warning.empty()) loaded.warning = unclear_text(update);
       loaded.updates.push_back(std::move(update));
-    } catch (const Error&) {
+    } catch (const Error& error) {
       if (!options.pictures_may_be_missing) throw;
-      // Its layers will be missing, with a warning.
+      if (loaded.warning.empty()) loaded.warning = error.what();
+      failed.insert(name);
     }
   }
+  return failed;
 }
 
 }  // namespace
@@ -213,12 +227,11 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
   }
   for_each_file(layers, [&](std::string& file) { file = resolved_path(path, file).string(); });
   withhold_unreachable(layers, path, options, files, loaded.pictures);
-  update_layers(layers, options, files, loaded);
+  const std::set<std::string> failed = update_layers(layers, options, files, loaded);
   for (size_t i = 0; i < layers.size(); ++i) {
-    if (std::ranges::any_of(loaded.updates, [&](const LayerUpdate& update) {
-          return update.is_unclear(layers[i]);
-        }))
-      continue;
+    const auto& image = layers[i].image;
+    const bool is_unclear = image && is_entry_of_unclear(image->entry);
+    if (is_unclear || (image && !image->entry.empty() && failed.contains(image->file))) continue;
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
     const std::string warning =
@@ -320,6 +333,9 @@ LoadedScene scene_of_image(const Path& path, double open_pixels) {
   if (in_file.layers.empty()) {
     loaded.scene = scene_of(layer_of_picture(path, files, loaded.pictures));
     loaded.report.add(report_of_picture(path));
+    if (const auto footage = loaded.pictures.footage(loaded.scene.layer());
+        footage && footage->info().is_hdr)
+      loaded.report.add("", "its HDR colors are toned down to those of ordinary screens");
     if (const Clip* clip = clip_of(loaded.scene.layer()))
       loaded.scene.animation.frames_per_second = clip->frames_per_second;
     // Parts of a photograph that move away leave gaps, which the original fills.

@@ -31,9 +31,10 @@ struct LoadOptions {
   /// cannot.
   bool pictures_may_be_missing = false;
   Reach reach = {};
-  double open_pixels = 0;     ///< number of pixels in pictures that are already open
-  bool keeps_origin = false;  ///< keep the origin recorded in an autosave
-  LayerChoices choices = {};  ///< for layers of changed files that may be one of several
+  double open_pixels = 0;         ///< number of pixels in pictures that are already open
+  bool keeps_origin = false;      ///< keep the origin recorded in an autosave
+  LayerChoices choices = {};      ///< for layers of changed files that may be one of several
+  bool looks_for_layers = false;  ///< also in files with layers that have not changed
 };
 /// Reads a scene file and the pictures that it names by paths relative to the file's folder. Looks
 /// for missing pictures next to the scene file, and for the layers of files that have changed.

@@ -83,7 +83,8 @@ Picture PictureFiles::layer_picture(const ImageReference& reference) {
             reference.mark};
   }
   Image image = decode_layer(file.bytes, reference.entry, reference.file, pixels_);
-  LayerMark mark = mark_of(reference.file, reference.entry, image);
+  const bool is_known = reference.mark && reference.sha256 == file.sha256;
+  LayerMark mark = is_known ? *reference.mark : mark_of(reference.file, reference.entry, image);
   move(image, reference.corner);
   return {std::make_shared<const Image>(std::move(image)),
           file.sha256,

@@ -6,14 +6,13 @@ import random
 import struct
 import sys
 import zipfile
-import zlib
 
 import numpy
 from PIL import Image
 from psd_tools import PSDImage
 
 from case import Case, seed_of, timed
-from psd_writer import CMYK, COLORS, DUOTONE, GRAY, INDEXED, LAB, NONE, RGB, RUNS, ZIP, ZIP_DIFFERENCES, block, layer_info, psd, stored
+from psd_writer import CMYK, COLORS, DUOTONE, GRAY, INDEXED, LAB, NONE, RGB, RUNS, ZIP, ZIP_DIFFERENCES, psd
 
 def srgb_of_lab(lab):
     """CIELAB (D50) as 8-bit sRGB, by the formulas of CIE 15 and IEC 61966-2-1, adapted to D65 by the Bradford matrix."""

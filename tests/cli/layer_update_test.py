@@ -37,6 +37,7 @@ class Art:
     def grow(self):
         """Adds or removes rows and columns at all sides; returns how far everything has moved from the lower left corner."""
         left, top, right, bottom = (self.rng.randrange(-9, 30) for _ in range(4))
+        self.grown = left, top
         self.width += left + right
         self.height += top + bottom
         for layer in self.layers:
@@ -156,6 +157,8 @@ class Updates(Case):
                     again = self.scene()
                     self.good("update", self.path("s.json"))
                     self.assertEqual(self.scene(), again)
+                    self.good("update", self.path("s.json"), "--add")  # also what an earlier update has not added
+                    self.assertEqual({layer["image"]["name"] for layer in self.scene()["layers"]}, {layer["name"] for layer in art.layers})
 
     def test_a_rig_moves_with_its_layer(self):
         for seed in (1, seed_of("moved rigs", 2)):
@@ -204,6 +207,54 @@ class Updates(Case):
                 self.assertEqual(self.scene()["layers"][1]["image"]["name"], high)
                 self.bad("update", self.path("s.json"), "--match", "nobody=" + low, says="no layer of a file with the name 'nobody'")
                 self.bad("update", self.path("s.json"), "--match", "nothing", says="not of the form")
+
+    def test_an_answer_concerns_one_layer_only(self):
+        """What was renamed and repainted at once is asked about, while others get the entries that it had."""
+        for kind in WRITERS:
+            for seed in (11, seed_of("one answer", 12)):
+                with self.subTest(kind=kind, seed=seed):
+                    rng = random.Random(seed)
+                    art = Art(rng, 4)
+                    self.start(art, kind)
+                    before = list(art.layers)
+                    arm = rng.choice(before)
+                    was = arm["name"]
+                    arm["name"], arm["pixels"], arm["id"] = "sleeve", art.pixels(9, 12), 77
+                    art.add(rng.randrange(len(art.layers) + 1))
+                    self.save(art, kind)
+                    if kind != "renumbered.psd":  # whose ids may say the right thing
+                        self.bad("update", self.path("s.json"), says=f"the layer '{was}' may now be")
+                    self.good("update", self.path("s.json"), "--match", was + "=sleeve")
+                    self.assertEqual([layer["image"]["name"] for layer in self.scene()["layers"]], [layer["name"] for layer in before])
+                    self.assert_same(self.drawn(self.BOX), self.composed(art, before, self.BOX, (0, 0)), seed)
+
+    def test_lost_layers_follow_the_canvas_and_do_not_mix(self):
+        """Two layers with the same pixels are lost, the canvas grows, and they come back one by one."""
+        for kind in WRITERS:
+            with self.subTest(kind=kind):
+                art = Art(random.Random(13), 4)
+                left, right = art.layers[1], art.layers[2]
+                right["pixels"] = left["pixels"].copy()
+                self.start(art, kind)
+                shown = self.drawn(self.BOX)
+                art.layers = [art.layers[0], art.layers[3]]
+                self.save(art, kind)
+                self.good("update", self.path("s.json"))
+                moved = art.grow()
+                for layer in (left, right):  # the canvas grows at the left and at the top, too
+                    layer["x"] += art.grown[0]
+                    layer["y"] += art.grown[1]
+                self.save(art, kind)
+                self.good("update", self.path("s.json"))
+                art.layers.insert(1, right)
+                self.save(art, kind)
+                self.good("update", self.path("s.json"))
+                wanted = self.composed(art, art.layers, self.BOX, moved)
+                self.assert_same(self.drawn(self.BOX), wanted, kind)
+                art.layers.insert(1, left)
+                self.save(art, kind)
+                self.good("update", self.path("s.json"))
+                self.assert_same(self.drawn(self.BOX), shown, kind)
 
     def test_a_lost_layer_keeps_its_rig_and_can_come_back(self):
         for kind in WRITERS:

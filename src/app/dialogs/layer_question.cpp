@@ -18,20 +18,22 @@ constexpr float kSide = 56;  // of a thumbnail
 }  // namespace
 
 void LayerQuestion::ask(FoundLayers found, std::function<void(const LayerChoices&)> answered) {
-  chosen_.assign(found.update.unclear.size(), std::nullopt);
-  found_ = std::move(found);
-  answered_ = std::move(answered);
+  const size_t count = found.update.unclear.size();
+  asked_.push_back(
+      {std::move(found), std::vector<std::optional<std::string>>(count), std::move(answered)});
 }
 
 bool LayerQuestion::is_taken(const std::string& entry, size_t except) const {
-  for (size_t i = 0; i < chosen_.size(); ++i)
-    if (i != except && chosen_[i] == entry) return true;
+  const auto& chosen = asked_.front().chosen;
+  for (size_t i = 0; i < chosen.size(); ++i)
+    if (i != except && chosen[i] == entry) return true;
   return false;
 }
 
 void LayerQuestion::draw_row(size_t number, Thumbnails& thumbnails) {
-  const UnclearLayer& unclear = found_->update.unclear[number];
-  std::optional<std::string>& chosen = chosen_[number];
+  FoundLayers& found = asked_.front().found;
+  const UnclearLayer& unclear = found.update.unclear[number];
+  std::optional<std::string>& chosen = asked_.front().chosen[number];
   const auto name_of = [&]() -> std::string {
     if (!chosen) return "Choose...";
     for (const FileLayer& candidate : unclear.candidates)
@@ -40,7 +42,7 @@ void LayerQuestion::draw_row(size_t number, Thumbnails& thumbnails) {
   };
   ImGui::PushID(static_cast<int>(number));
   const Texture* texture =
-      chosen && !chosen->empty() ? thumbnails.of_picture(found_->candidates[*chosen]) : nullptr;
+      chosen && !chosen->empty() ? thumbnails.of_picture(found.candidates[*chosen]) : nullptr;
   draw_thumbnail(*ImGui::GetWindowDrawList(), texture, ImGui::GetCursorScreenPos(), px(kSide),
                  px(4));
   ImGui::Dummy({px(kSide), px(kSide)});
@@ -60,22 +62,23 @@ void LayerQuestion::draw_row(size_t number, Thumbnails& thumbnails) {
 }
 
 void LayerQuestion::draw(Thumbnails& thumbnails) {
-  if (!found_) return;
-  const std::string& file = found_->update.report.file;
+  if (asked_.empty()) return;
+  const auto& [found, chosen, answered] = asked_.front();
+  const std::string file = found.update.report.file;
   if (!begin_dialog(kTitle, "###layers", 460)) return;
-  const bool several = chosen_.size() > 1;
+  const bool several = chosen.size() > 1;
   wrapped_text(file + " has changed. Choose what " +
                (several ? "each of these layers is" : "this layer is") +
                " now. It keeps its cage, pins and keyframes.");
   constexpr float kMostRows = 5;
-  const float rows = std::min(static_cast<float>(chosen_.size()), kMostRows);
+  const float rows = std::min(static_cast<float>(chosen.size()), kMostRows);
   ImGui::BeginChild("rows", {0, rows * px(kSide + 12)});
-  for (size_t i = 0; i < chosen_.size(); ++i) draw_row(i, thumbnails);
+  for (size_t i = 0; i < chosen.size(); ++i) draw_row(i, thumbnails);
   ImGui::EndChild();
   constexpr float kWidth = 96;
   begin_dialog_buttons(2 * px(kWidth) + px(8));
   const bool complete = std::ranges::all_of(
-      chosen_, [](const std::optional<std::string>& entry) { return entry.has_value(); });
+      chosen, [](const std::optional<std::string>& entry) { return entry.has_value(); });
   bool later = button("Later", ButtonKind::secondary, px(kWidth));
   ImGui::SameLine(0, px(8));
   ImGui::BeginDisabled(!complete);
@@ -88,10 +91,11 @@ void LayerQuestion::draw(Thumbnails& thumbnails) {
   end_dialog();
   if (!later && !done) return;
   LayerChoices choices;
-  for (size_t i = 0; done && i < chosen_.size(); ++i)
-    choices.emplace_back(found_->update.unclear[i].entry, *chosen_[i]);
-  found_.reset();
-  if (done) answered_(choices);
+  for (size_t i = 0; done && i < chosen.size(); ++i)
+    choices.emplace_back(found.update.unclear[i].entry, *chosen[i]);
+  const auto answer = answered;
+  asked_.pop_front();
+  if (done) answer(choices);
 }
 
 }  // namespace holomorph

@@ -85,11 +85,19 @@ class SheetInterval final : public MotionInterval {
     VectorXc f;
     setting_->between->blend(interval, u, f);
     setting_->frame->restore(f);
+    bool folds = flipped_triangles(mesh(), f) > 0;
+    if (VectorXc unfolded = f; folds && setting_->between->unfold(unfolded)) {
+      setting_->frame->restore(unfolded);
+      folds = flipped_triangles(mesh(), unfolded) > 0;
+      if (!folds) f = std::move(unfolded);
+    }
     Blended at = blended(u, f);
-    if (flipped_triangles(mesh(), f) > 0 && !setting_->between->unfold(f))
+    if (folds) {
       f = (u < 0.5 ? keys_[1] : keys_[2])->shape.f;
-    for (Index v = 0; v < f.size(); ++v)
-      at.pull.vertices.push_back({static_cast<int>(v), f[v], {setting_->tethers[v]}});
+    } else {
+      for (Index v = 0; v < f.size(); ++v)
+        at.pull.vertices.push_back({static_cast<int>(v), f[v], {setting_->tethers[v]}});
+    }
     const auto found =
         std::make_shared<const BlendedSheet>(solver().relaxed(at.pull, at.places, std::move(f)));
     const ProvedSheet sheet(solver(), found->f);

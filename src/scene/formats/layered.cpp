@@ -70,6 +70,9 @@ Image decode_layer(const std::string& bytes, const std::string& entry, const std
 
 LayerMark mark_of(const Image& image, const std::string& name) {
   const auto [left, top, right, bottom] = filled_range(image);
+  const PixelPosition corner{image.left + left, image.top() - bottom};
+  if (image.at(left, top)[3] == 0 && right - left == 1 && bottom - top == 1)
+    return {name, "", corner};  // all layers without content are alike
   std::string bytes = std::to_string(right - left) + " x " + std::to_string(bottom - top) + "\n";
   for (int r = top; r < bottom; ++r)
     for (int c = left; c < right; ++c) {
@@ -77,7 +80,7 @@ LayerMark mark_of(const Image& image, const std::string& name) {
       const std::uint8_t* pixel = image.at(c, r)[3] > 0 ? image.at(c, r) : kNothing;
       bytes.append(reinterpret_cast<const char*>(pixel), 4);
     }
-  return {name, sha256_hex(bytes), {image.left + left, image.top() - bottom}};
+  return {name, sha256_hex(bytes), corner};
 }
 
 DrawnLayer background_layer(const LayeredPicture& picture) {

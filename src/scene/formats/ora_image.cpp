@@ -98,7 +98,8 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
   }
   for (const pugi::xml_node& node : group.children()) {
     Placed here = inherited;
-    here.layer.name = node.attribute("name").as_string();
+    here.layer.name +=
+        (here.layer.name.empty() ? "" : "/") + std::string(node.attribute("name").as_string());
     here.layer.visible = inherited.layer.visible &&
                          std::string(node.attribute("visibility").as_string()) != "hidden";
     const std::string mode = node.attribute("composite-op").as_string("svg:src-over");
