@@ -65,9 +65,11 @@ class PictureMaker::LayerMaker {
   const Image* source() const { return source_; }
   bool visible() const { return layer_.visible && source_; }
 
-  RasterResult picture(const PictureOptions& options, double top, const Similarity& placement) {
+  RasterResult picture(const Frame& frame, const Similarity& placement) {
+    const PictureOptions& options = frame.options;
     show_frame(options.time);
-    RasterJob job = job_of(options, top);
+    RasterJob job = job_of(options, frame.top);
+    job.stage = frame.stage;
     job.placement = placement;
     if (!deformation_.has_cage()) {
       if (options.view != View::image)
@@ -134,7 +136,7 @@ class PictureMaker::LayerMaker {
   }
 
   /// What determines the extent of the layer at a time, in its own plane: the positions of the
-  /// mesh, and the corners of the page if it moves as a whole.
+  /// mesh, and the corners of the picture if it moves as a whole.
   VectorXc extent_at(double time, bool with_picture) {
     VectorXc points = deformation_.has_cage() ? positions_at(time) : VectorXc();
     if (const Fringe* fringe = this->fringe()) {
@@ -146,7 +148,8 @@ class PictureMaker::LayerMaker {
     if (!with_picture || !source_) return points;
     const Index count = points.size();
     points.conservativeResize(count + 4);
-    std::ranges::copy(page_.corners(), points.begin() + count);
+    const Box box = is_resized() ? page_ : source_->box();
+    std::ranges::copy(box.corners(), points.begin() + count);
     return points;
   }
   void include_page(Box& box, const Similarity& placement) const {
@@ -265,19 +268,21 @@ Box PictureMaker::rectangle() const {
 PictureMaker::Frame PictureMaker::frame_of(const PictureOptions& options) const {
   Frame frame{options};
   if (options.view != View::image || !has_layers(scene_)) {
-    frame.top = layers_[scene_.edited]->page().top;
+    frame.stage = layers_[scene_.edited]->page();
+    frame.top = frame.stage->top;
     return frame;
   }
   const Box rectangle = this->rectangle();
   if (options.crop && !options.region && !rectangle.empty()) frame.options.region = rectangle;
   frame.top = rectangle.empty() ? 0 : rectangle.top;
+  if (!rectangle.empty()) frame.stage = rectangle;
   return frame;
 }
 
 std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOptions& options) {
   if (!layers_[number]->source()) return {};
   const Frame frame = frame_of(options);
-  return layers_[number]->picture(frame.options, frame.top, placement(number, options.time));
+  return layers_[number]->picture(frame, placement(number, options.time));
 }
 
 std::optional<RasterResult> PictureMaker::original(size_t number,
@@ -299,7 +304,7 @@ RasterResult PictureMaker::picture(const PictureOptions& options) {
     throw no_key_plays();
   const Frame frame = frame_of(options);
   const auto drawn = [&](size_t layer) {
-    return layers_[layer]->picture(frame.options, frame.top, placement(layer, options.time));
+    return layers_[layer]->picture(frame, placement(layer, options.time));
   };
   if (options.view != View::image) return drawn(scene_.edited);
   Composition all(options.scale);

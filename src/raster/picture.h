@@ -68,6 +68,7 @@ class PictureMaker {
   struct Frame {
     PictureOptions options;  ///< with the region to which they crop
     double top = 0;          ///< the upper edge of the pictures, at which rows of pixels start
+    std::optional<Box> stage = {};  ///< as in RasterJob
   };
   Frame frame_of(const PictureOptions& options) const;
   std::vector<MotionPart> motion_parts(size_t layer);

@@ -43,20 +43,20 @@ void trim(Image& image, PixelRect& frame, const PixelRect& least) {
   frame = {frame.left + left, frame.top + top, image.width, image.height};
 }
 
-/// The bounding box of the page where the job places it.
-Box placed_page(const RasterJob& job) {
+/// The bounding box of the source where the job places it.
+Box placed_box(const RasterJob& job) {
   Box box;
-  for (const Complex& corner : job.page().corners()) box.include(job.placement(corner));
+  for (const Complex& corner : job.source_box().corners()) box.include(job.placement(corner));
   return box;
 }
 
-/// The bounding box of the page's image under the map, computed from the mesh vertices on the page
-/// and the points where mesh edges cross its border.
-Box image_of_page(const RasterJob& job, const Mesh& mesh, std::span<const Complex> at) {
-  const Box page = job.page();
-  const auto depth = [&](Complex z) {
-    return std::array{z.real() - page.left, page.right - z.real(), z.imag() - page.bottom,
-                      page.top - z.imag()};
+/// The bounding box of the image of a rectangle under the map, computed from the mesh vertices in
+/// it and the points where mesh edges cross its border.
+Box image_of(const Box& rectangle, const RasterJob& job, const Mesh& mesh,
+             std::span<const Complex> at) {
+  const auto& [left, bottom, right, top] = rectangle;
+  const auto depth = [=](Complex z) {
+    return std::array{z.real() - left, right - z.real(), z.imag() - bottom, top - z.imag()};
   };
   Box box;
   for (const Triangle& t : mesh.triangles)
@@ -75,6 +75,24 @@ Box image_of_page(const RasterJob& job, const Mesh& mesh, std::span<const Comple
       box.include((1 - to) * p + to * q);
     }
   return box;
+}
+
+/// The part of the stage that may show what lies beyond the page; empty if there is none.
+Box on_stage(const RasterJob& job) {
+  if (!job.source || !job.stage || job.region || job.crop || job.source_box() == job.page())
+    return {};
+  Box box = placed_box(job);
+  const auto add = [&](const Mesh* mesh, std::span<const Complex> at) {
+    const Box moved = mesh ? image_of(job.source_box(), job, *mesh, at) : Box{};
+    if (moved.empty()) return;
+    box.include({moved.left, moved.bottom});
+    box.include({moved.right, moved.top});
+  };
+  add(job.mesh, job.positions);
+  add(job.fringe, job.fringe_positions);
+  const Box& stage = *job.stage;
+  return {std::max(box.left, stage.left), std::max(box.bottom, stage.bottom),
+          std::min(box.right, stage.right), std::min(box.top, stage.top)};
 }
 
 }  // namespace
@@ -111,7 +129,7 @@ RasterResult rasterized(const RasterJob& job) {
                  : static_cast<int>(std::ceil((top_edge - page.bottom) * scale)) - top};
   }
   std::optional<Box> region = job.region;
-  if (job.source && !region && !is_identity(job.placement)) region = placed_page(job);
+  if (job.source && !region && !is_identity(job.placement)) region = placed_box(job);
   if (region) {
     const Box& box = *region;
     const double slack = job.region ? 0 : kRounding;
@@ -133,11 +151,11 @@ RasterResult rasterized(const RasterJob& job) {
   if (job.mesh && !job.region && !(job.crop && job.source)) {
     Box box;
     if (job.source)
-      box = image_of_page(job, *job.mesh, job.positions);
+      box = image_of(page, job, *job.mesh, job.positions);
     else
       for (const Complex& z : job.positions) box.include(job.placement(z));
     if (job.source && job.fringe) {
-      const Box around = image_of_page(job, *job.fringe, job.fringe_positions);
+      const Box around = image_of(page, job, *job.fringe, job.fringe_positions);
       if (!around.empty()) {
         box.include({around.left, around.bottom});
         box.include({around.right, around.top});
@@ -150,6 +168,12 @@ RasterResult rasterized(const RasterJob& job) {
       top = std::min(top, std::floor((top_edge - box.top) * scale + kRounding));
       bottom = std::max(bottom, std::ceil((top_edge - box.bottom) * scale - kRounding));
     }
+  }
+  if (const Box shown = on_stage(job); !shown.empty() && right > left) {
+    left = std::min(left, std::floor(shown.left * scale + kRounding));
+    right = std::max(right, std::ceil(shown.right * scale - kRounding));
+    top = std::min(top, std::floor((top_edge - shown.top) * scale + kRounding));
+    bottom = std::max(bottom, std::ceil((top_edge - shown.bottom) * scale - kRounding));
   }
   check_size(right - left, bottom - top);
   if (right <= left || bottom <= top)

@@ -28,11 +28,13 @@ struct RasterJob {
   double pixels_per_unit = 1;  ///< output pixels per unit of the plane
   bool surroundings = true;    ///< also draw the source outside the rest cage
   Similarity placement = {};   ///< moves everything that is drawn
-  bool crop = false;           ///< crop to the source's page; otherwise crop nothing
-  std::optional<Box> region;   ///< draw exactly this part of the plane, rounded to whole pixels
-  std::optional<double> top;   ///< y of the top of pixel row 0; if not set, the page's top
-  bool fine = false;           ///< the result has fine pixels
-  int threads = 0;             ///< if 0, one per processor core
+  /// What lies beyond the page is shown where it comes into this part of the plane.
+  std::optional<Box> stage;
+  bool crop = false;          ///< crop to the source's page; otherwise crop nothing
+  std::optional<Box> region;  ///< draw exactly this part of the plane, rounded to whole pixels
+  std::optional<double> top;  ///< y of the top of pixel row 0; if not set, the page's top
+  bool fine = false;          ///< the result has fine pixels
+  int threads = 0;            ///< if 0, one per processor core
 
   /// The rectangle of the source in the plane; zero without a source.
   Box source_box() const { return source ? box.value_or(source->box()) : Box{0, 0, 0, 0}; }

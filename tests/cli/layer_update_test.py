@@ -311,6 +311,27 @@ class Updates(Case):
                 wanted = self.composed(art, art.layers[1:], self.BOX, (0, 20))
                 self.assert_same(self.drawn(self.BOX), wanted, kind)
 
+    def test_what_lies_beyond_the_canvas_appears_on_it(self):
+        """An arm that is half beyond the canvas is moved onto it as a whole, and by its cage; at rest, its half stays hidden."""
+        red, blue = numpy.full((20, 60, 4), (200, 30, 40, 255), numpy.uint8), numpy.full((100, 100, 4), (30, 60, 200, 255), numpy.uint8)
+        for kind in WRITERS:
+            art = Art(random.Random(9), 0)
+            art.width = art.height = 100
+            art.layers = [{"id": 1, "name": "sky", "pixels": blue, "x": 0, "y": 0}, {"id": 2, "name": "arm", "pixels": red, "x": -30, "y": 40}]
+            self.start(art, kind)
+            box = [[-32, 38], [32, 38], [32, 62], [-32, 62]]
+            for change, left, right in (({}, 0, 30), ({"placement": {"factor": [1, 0], "shift": [40, 0]}}, 10, 70),
+                                        ({"cage": {"rest": [[p] for p in box], "pose": [[[x + 35, y]] for x, y in box]}}, 5, 65)):
+                with self.subTest(kind=kind, change=change):
+                    scene = self.scene()
+                    scene["layers"][1] = {**scene["layers"][1], **change}
+                    self.write("moved.json", scene)
+                    self.good("render", self.path("moved.json"), "--out", self.path("s.png"), "--force")
+                    shown = numpy.asarray(Image.open(self.path("s.png")).convert("RGB"))
+                    self.assertEqual(shown.shape, (100, 100, 3))
+                    columns = numpy.flatnonzero(shown[50, :, 0] > 128)
+                    self.assertEqual((columns[0], columns[-1] + 1), (left, right))
+
     def test_a_layer_takes_the_memory_of_its_own_pixels(self):
         art = Art(random.Random(9), 12)
         art.width = art.height = 4000

@@ -82,9 +82,6 @@ Image cut_out(const Image& image, int left, int top, int width, int height) {
     std::copy_n(&image.pixels[from], row, &part.pixels[to]);
     if (!image.fine.empty()) std::copy_n(&image.fine[from], row, &part.fine[to]);
   }
-  part.left = image.left + left;
-  part.bottom = image.top() - top - height;
-  part.canvas = image.canvas;
   return part;
 }
 

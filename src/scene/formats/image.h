@@ -52,7 +52,7 @@ inline bool is_filled(const Image& image, int column, int row) {
   const size_t alpha = image.index(column, row) + 3;
   return image.fine.empty() ? image.pixels[alpha] > 0 : image.fine[alpha] > 0;
 }
-/// A part of a picture, in whole pixels from its upper left corner. It stays where it is.
+/// A part of a picture, in whole pixels.
 Image cut_out(const Image& image, int left, int top, int width, int height);
 
 /// What is read of pictures with more than 8 bits.
