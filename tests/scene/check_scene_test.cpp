@@ -42,7 +42,7 @@ Scene full_scene() {
   deformation = with_key(with_key(deformation, 0), 2);
   Layer layer;
   layer.name = "hero";
-  layer.image = ImageReference{"hero.png", "", 60, 50, "", ""};
+  layer.image = ImageReference{"hero.png", "", 60, 50, {}, "", ""};
   layer.deformation = std::move(deformation);
   return scene_of(std::move(layer));
 }

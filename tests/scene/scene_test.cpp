@@ -96,8 +96,9 @@ TEST_CASE("Errors in a scene name the file, the JSON pointer and the reason") {
   CHECK_THAT(complaint(replaced(kText, "{\"name\": \"x\"}", deep + std::string(200000, ']'))),
              Contains("nested"));
   Scene unspeakable = scene_from_json(kText, "x");
-  change_layer(unspeakable,
-               [](Layer& layer) { layer.image = ImageReference{"caf\xe9.png", "", 0, 0, "", ""}; });
+  change_layer(unspeakable, [](Layer& layer) {
+    layer.image = ImageReference{"caf\xe9.png", "", 0, 0, {}, "", ""};
+  });
   CHECK_THROWS_AS(json_of(unspeakable), Error);
   std::string many = R"({"format":"holomorph","version":1,"cage":{"rest":[)";
   for (int i = 0; i < 6000; ++i) many += "[[0,0]],";

@@ -92,7 +92,7 @@ TEST_CASE("A cage survives SVG to 1e-9, at rest and posed, with and without a pi
   deformation.pose.segments[3].resize(1);
   for (const int picture : {0, 400}) {
     std::optional<ImageReference> image;
-    if (picture) image = ImageReference{"x.png", "", picture, picture, "", ""};
+    if (picture) image = ImageReference{"x.png", "", picture, picture, {}, "", ""};
     check_equal(cage_of_svg(svg_of(deformation, image), "p.svg", picture, PathUse::pose),
                 deformation.pose);
     check_equal(cage_of_svg(svg_of(deformation, image), "p.svg", picture, PathUse::rest),
