@@ -54,6 +54,26 @@ Image on_canvas(const LayeredPicture& picture, const DrawnLayer& layer) {
   return canvas;
 }
 
+/// A decoded layer where it lies on its canvas.
+Image on_canvas(const Image& layer) {
+  const Box page = layer.page();
+  Image canvas(static_cast<int>(page.width()), static_cast<int>(page.height()));
+  for (int r = 0; r < layer.height; ++r)
+    for (int c = 0; c < layer.width; ++c) {
+      const int column = c + layer.left, row = r + canvas.height - layer.top();
+      if (column < 0 || row < 0 || column >= canvas.width || row >= canvas.height) continue;
+      std::copy_n(layer.at(c, r), 4, canvas.at(column, row));
+    }
+  return canvas;
+}
+
+/// The image without the colors of transparent pixels, which nobody sees.
+Image visible_part(Image image) {
+  for (size_t i = 0; i < image.pixels.size(); i += 4)
+    if (image.pixels[i + 3] == 0) std::fill_n(&image.pixels[i], 3, std::uint8_t{0});
+  return image;
+}
+
 /// A layer of 2 x 2 pixels in a hand-made PSD file.
 struct PsdLayer {
   std::string name, key = "norm";
@@ -131,7 +151,7 @@ TEST_CASE("PSD and OpenRaster give back the layers that were written") {
           CHECK(layer.visible == wrote.visible);
           CHECK(layer.opacity == Approx(wrote.opacity).margin(1e-9));
           CHECK(layer.clipped == wrote.clipped);
-          CHECK(image == on_canvas(picture, wrote));
+          CHECK(visible_part(on_canvas(image)) == visible_part(on_canvas(picture, wrote)));
         }
         if (is_ora) CHECK(decode_image(bytes, "a") == picture.merged);
       }
@@ -152,7 +172,8 @@ TEST_CASE("OpenRaster cuts clipped layers to the shape of their base") {
   picture.layers = {base, upper};
   const std::string bytes = layered_formats()[1].encode(picture);
   PixelBudget pixels;
-  const Image cut = decode_layer(bytes, layers_of_file(bytes, "a").layers[1].entry, "a", pixels);
+  const Image cut =
+      on_canvas(decode_layer(bytes, layers_of_file(bytes, "a").layers[1].entry, "a", pixels));
   const Image under = on_canvas(picture, base);
   for (int r = 0; r < 30; ++r)
     for (int c = 0; c < 40; ++c) {
