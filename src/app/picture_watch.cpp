@@ -83,8 +83,8 @@ FoundLayers found_layers(const std::vector<Layer>& layers, const std::string& fi
   FoundLayers found{layer_update(layers, file, files, choices), {}, {}};
   for (Layer layer : layers) {
     found.update.apply(layer);
-    if (found.update.is_unclear(layer)) continue;
     const ImageReference& image = *layer.image;
+    if (is_unclear(image)) continue;
     const bool is_read = std::ranges::any_of(found.pictures, [&](const auto& other) {
       return other.first.entry == image.entry && other.first.corner == image.corner;
     });

@@ -11,7 +11,8 @@ namespace holomorph {
 struct MeshExport {
   std::string format;  ///< its id
   Path out;
-  /// Of each layer. By default, formats with all layers get so few that no difference is visible.
+  /// Of each layer. Not set: in formats with all layers, the fewest with which no difference is
+  /// visible; in others, all of them.
   std::optional<size_t> vertices = {};
   std::optional<double> time = {};  ///< a single moment in seconds
   /// The first and the last frame. If neither this nor the time is set: all frames or, if nothing

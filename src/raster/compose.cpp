@@ -74,21 +74,6 @@ Shift shift_between(Complex from, Complex to, double pixels_per_unit) {
   return {static_cast<int>(std::lround(by.real())), static_cast<int>(std::lround(by.imag()))};
 }
 
-/// The rows and columns of the pixels with some alpha: from the first to behind the last.
-struct PixelRange {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  bool empty() const { return right <= left; }
-};
-PixelRange filled_range(const Image& image) {
-  PixelRange range{image.width, image.height, 0, 0};
-  for (int r = 0; r < image.height; ++r)
-    for (int c = 0; c < image.width; ++c)
-      if (is_filled(image, c, r))
-        range = {std::min(range.left, c), std::min(range.top, r), std::max(range.right, c + 1),
-                 std::max(range.bottom, r + 1)};
-  return range;
-}
-
 }  // namespace
 
 LayerInk ink_of(const Scene& scene, size_t layer) {

@@ -4,7 +4,6 @@
 #include <map>
 #include <random>
 #include <set>
-#include <tuple>
 
 #include "core/error.h"
 #include "scene/formats/file_kinds.h"
@@ -130,14 +129,13 @@ void Document::describe_films() {
 std::vector<Layer> Document::layers_of_file(const std::string& file) const {
   std::vector<Layer> all;
   std::set<const Layer*> seen;
-  std::set<std::tuple<std::string, int, int>> kinds;
+  std::set<std::pair<std::string, PixelPosition>> kinds;
   for (const History::Entry& entry : history_.entries())
     for (const SharedLayer& layer : entry.scene.layers) {
       if (!seen.insert(&*layer).second || !layer->image || layer->image->file != file ||
           layer->image->entry.empty())
         continue;
-      const auto& [x, y] = layer->image->corner;
-      if (!kinds.insert({layer->image->entry, x, y}).second) continue;
+      if (!kinds.insert({layer->image->entry, layer->image->corner}).second) continue;
       Layer known;  // without its deformation
       known.name = layer->name;
       known.image = layer->image;

@@ -2,6 +2,7 @@
 #include "scene/layer_update.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "scene/layers.h"
@@ -10,16 +11,8 @@
 namespace holomorph {
 namespace {
 
-std::pair<std::string, std::pair<int, int>> key_of(const ImageReference& image) {
-  return {image.entry, {image.corner.x, image.corner.y}};
-}
-
-/// The entries of layers that are lost or unclear begin so: other layers may get their old ones.
-constexpr std::string_view kLost = "lost:", kUnclear = "unclear:";
-
-/// The entry that an unclear layer had.
-std::string entry_before(const std::string& entry) {
-  return entry.starts_with(kUnclear) ? entry.substr(kUnclear.size()) : entry;
+std::pair<std::string, PixelPosition> key_of(const ImageReference& image) {
+  return {image.entry, image.corner};
 }
 
 bool shows_layer_of(const Layer& layer, const std::string& file) {
@@ -29,9 +22,17 @@ bool shows_layer_of(const Layer& layer, const std::string& file) {
 /// A layer of the file as some references know it.
 struct Known {
   std::string entry;
-  LayerMark mark;             ///< without a hash if the scene has none
-  std::optional<size_t> now;  ///< the layer that it is in the file
+  LayerMark mark;                   ///< without a hash if the scene has none
+  bool was_lost = false;            ///< at the last update
+  bool is_chosen = false;           ///< the user has said what it is, or that it is lost
+  std::optional<size_t> now = {};   ///< the layer that it is in the file
+  std::vector<size_t> rivals = {};  ///< what it may be, of which one must be wrong
 };
+
+/// The entry that an unclear layer had.
+std::string entry_before(const std::string& entry) {
+  return entry.starts_with(kUnclearEntry) ? entry.substr(kUnclearEntry.size()) : entry;
+}
 
 /// The number of the only element that satisfies a condition; none if there is no such element, or
 /// if there are several.
@@ -54,9 +55,9 @@ class Finder {
     for (const Layer& layer : layers) {
       if (!shows_layer_of(layer, file)) continue;
       const ImageReference& image = *layer.image;
-      if (std::ranges::find(known_, image.entry, &Known::entry) != known_.end()) continue;
-      LayerMark mark = image.mark.value_or(LayerMark{layer.name, "", {}});
-      known_.push_back({image.entry, std::move(mark), {}});
+      if (std::ranges::find(known_, image.entry, &Known::entry) == known_.end())
+        known_.push_back(
+            {image.entry, image.mark.value_or(LayerMark{layer.name, "", {}}), is_lost(image)});
     }
   }
 
@@ -67,17 +68,10 @@ class Finder {
     find_by_name([](size_t) { return true; });
     find_by_pixels();
     find_by_name([&](size_t i) { return !taken_[i]; });
-    for (Known& known : known_) {
-      const bool stays = known.now || known.mark.lost || is_chosen(known) ||
-                         std::ranges::find(unclear_, &known, &Unclear::known) != unclear_.end();
-      std::vector<size_t> left;
-      for (size_t i = 0; i < now_.size(); ++i)
-        if (!taken_[i]) left.push_back(i);
-      if (!stays && !left.empty()) unclear_.push_back({&known, std::move(left)});
-    }
   }
 
   const std::vector<Known>& known() const { return known_; }
+  const FileLayer& layer(size_t now) const { return now_[now]; }
   /// A layer that cannot be decoded has no hash.
   const LayerMark& mark(size_t now) {
     static const LayerMark kUnknown;
@@ -88,7 +82,17 @@ class Finder {
     }
   }
   bool is_unchanged(const Known& known) {
-    return known.now && !known.mark.lost && has_pixels_of(known, *known.now);
+    return known.now && !known.was_lost && has_pixels_of(known, *known.now);
+  }
+  /// What a layer may be that was not found; none if it is lost.
+  std::vector<size_t> candidates(const Known& known) const {
+    std::vector<size_t> left;
+    if (known.now || known.was_lost || known.is_chosen) return left;
+    std::ranges::copy_if(known.rivals, std::back_inserter(left),
+                         [&](size_t i) { return !taken_[i]; });
+    for (size_t i = 0; i < now_.size() && known.rivals.empty(); ++i)
+      if (!taken_[i]) left.push_back(i);
+    return left;
   }
   /// An entry that no layer has or had.
   std::string free_entry(std::string_view prefix, const std::string& before) const {
@@ -97,62 +101,39 @@ class Finder {
     while (std::ranges::find(known_, entry, &Known::entry) != known_.end()) entry += "'";
     return entry;
   }
-  const FileLayer& layer(size_t now) const { return now_[now]; }
-
-  std::vector<UnclearLayer> unclear() const {
-    std::vector<UnclearLayer> all;
-    for (const auto& [known, candidates] : unclear_) {
-      all.push_back({known->entry, known->mark.name, {}});
-      for (const size_t i : candidates)
-        if (!taken_[i]) all.back().candidates.push_back(now_[i]);
-    }
-    return all;
-  }
+  /// The layers that no reference shows, nor may show.
   std::vector<FileLayer> added() const {
+    std::vector<bool> shown = taken_;
+    for (const Known& known : known_)
+      for (const size_t i : candidates(known)) shown[i] = true;
     std::vector<FileLayer> all;
-    for (size_t i = 0; i < now_.size(); ++i) {
-      const bool is_candidate = std::ranges::any_of(unclear_, [&](const Unclear& unclear) {
-        return std::ranges::find(unclear.candidates, i) != unclear.candidates.end();
-      });
-      if (!taken_[i] && !is_candidate) all.push_back(now_[i]);
-    }
+    for (size_t i = 0; i < now_.size(); ++i)
+      if (!shown[i]) all.push_back(now_[i]);
     return all;
   }
 
  private:
-  struct Unclear {
-    const Known* known;
-    std::vector<size_t> candidates;
-  };
-
   void take(Known& known, size_t now) {
     known.now = now;
     taken_[now] = true;
   }
 
-  bool is_chosen(const Known& known) const {
-    return std::ranges::find(chosen_, known.entry) != chosen_.end();
-  }
-
-  static std::string quoted(const std::string& name) { return "'" + name + "'"; }
-
   void choose(const std::string& from, const std::string& to) {
-    const auto fail = [&](const std::string& what) -> void {
+    const auto fail = [&](const std::string& what) {
       throw Error(ErrorKind::bad_input, Path(file_).filename().string() + ": " + what);
     };
     auto which = only(known_, [&](const Known& k, size_t) { return k.entry == from; });
     if (!which) which = only(known_, [&](const Known& k, size_t) { return k.mark.name == from; });
     if (!which)
-      fail("the scene shows several layers with the name " + quoted(from) +
-           "; name its entry in the scene file");
+      fail("the scene shows several layers with the name '" + from +
+           "'; give the entry of one of them in the scene file");
     Known& known = known_[*which];
-    if (is_chosen(known)) fail(quoted(from) + " is matched twice");
-    chosen_.push_back(known.entry);
+    if (std::exchange(known.is_chosen, true)) fail("'" + from + "' is matched twice");
     if (to.empty()) return;
     auto now = only(now_, [&](const FileLayer& l, size_t) { return l.entry == to; });
     if (!now) now = only(now_, [&](const FileLayer& l, size_t) { return l.name == to; });
-    if (!now) fail("the file has no layer, or several layers, with the name " + quoted(to));
-    if (taken_[*now]) fail(quoted(to) + " is matched twice");
+    if (!now) fail("the file has no layer, or several layers, with the name '" + to + "'");
+    if (taken_[*now]) fail("'" + to + "' is matched twice");
     take(known, *now);
   }
 
@@ -172,8 +153,8 @@ class Finder {
     return !known.mark.hash.empty() && mark(now).hash == known.mark.hash;
   }
 
-  /// Some programs number the layers anew whenever they save. This shows where a layer with the
-  /// same name has the same pixels but another id, and the one with the same id has other pixels.
+  /// Some programs write new ids whenever they save. A layer shows this if its name and its pixels
+  /// are now those of another id.
   bool has_new_ids() {
     return std::ranges::any_of(known_, [&](const Known& known) {
       const auto [by_id, by_name] = rivals_of(known);
@@ -183,16 +164,15 @@ class Finder {
 
   void find_by_id(Known& known) {
     const auto [by_id, by_name] = rivals_of(known);
-    if (known.now || is_chosen(known) || !by_id || taken_[*by_id]) return;
+    if (known.now || known.is_chosen || !by_id || taken_[*by_id]) return;
     if (!by_name || has_pixels_of(known, *by_id))
       take(known, *by_id);
     else
-      unclear_.push_back({&known, {*by_id, *by_name}});
+      known.rivals = {*by_id, *by_name};
   }
 
-  bool is_open(const Known& known) const {
-    return !known.now && !is_chosen(known) &&
-           std::ranges::find(unclear_, &known, &Unclear::known) == unclear_.end();
+  static bool is_open(const Known& known) {
+    return !known.now && !known.is_chosen && known.rivals.empty();
   }
 
   /// Only names that are unique count, both among the layers that are not found yet and, in the
@@ -213,18 +193,16 @@ class Finder {
   }
 
   void find_by_pixels() {
-    const bool is_needed = std::ranges::any_of(
-        known_, [&](const Known& known) { return is_open(known) && !known.mark.hash.empty(); });
-    if (!is_needed) return;
     for (size_t k = 0; k < known_.size(); ++k) {
       const std::string& hash = known_[k].mark.hash;
       if (hash.empty()) continue;
       const auto alone = only(known_, [&](const Known& other, size_t) {
         return is_open(other) && other.mark.hash == hash;
       });
+      if (alone != k) continue;
       const auto now = only(
           now_, [&](const FileLayer&, size_t i) { return !taken_[i] && mark(i).hash == hash; });
-      if (alone == k && now) take(known_[k], *now);
+      if (now) take(known_[k], *now);
     }
   }
 
@@ -233,8 +211,6 @@ class Finder {
   const std::vector<FileLayer>& now_;
   std::vector<bool> taken_;  ///< the layers of the file that were found
   std::vector<Known> known_;
-  std::vector<std::string> chosen_;  ///< by the user
-  std::vector<Unclear> unclear_;
 };
 
 PixelPosition difference(const PixelPosition& a, const PixelPosition& b) {
@@ -287,32 +263,22 @@ void LayerUpdate::apply(Layer& layer) const {
   if (!shows_layer_of(layer, file)) return;
   const auto found = changes.find(key_of(*layer.image));
   if (found == changes.end()) return;
-  const auto& [entry, corner, moved, is_here, lost] = found->second;
+  const auto& [entry, corner, moved] = found->second;
   ImageReference& image = *layer.image;
-  if (image.entry != entry) image.sha256.clear();  // so that the mark is made anew
-  image.entry = entry;
+  const std::string before = std::exchange(image.entry, entry);
   image.corner = corner;
   image.width = width;
   image.height = height;
-  if (is_here) {
-    if (image.mark) image.mark->lost = false;
+  if (!is_lost(image) && !is_unclear(image)) {
+    if (before != entry) image.sha256.clear();  // the mark is that of another layer or file
     if (moved != PixelPosition{})
       layer.placement = composed(layer.placement, Similarity{1, 0, Complex(moved.x, moved.y)});
     return;
   }
-  // It is still what it was, on the canvas as it is now.
+  // Its content keeps its place in the scene, and so its distance from the content of the others.
   if (!image.mark) image.mark = LayerMark{layer.name, "", {}};
-  image.mark->lost = lost;
   image.mark->offset.x += shift.x;
   image.mark->offset.y += shift.y;
-}
-
-bool LayerUpdate::is_unclear(const Layer& layer) const {
-  return shows_layer_of(layer, file) && is_entry_of_unclear(layer.image->entry);
-}
-
-bool is_entry_of_unclear(const std::string& entry) {
-  return entry.starts_with(kUnclear);
 }
 
 bool needs_layer_update(std::span<const Layer> layers, const std::string& file,
@@ -320,6 +286,7 @@ bool needs_layer_update(std::span<const Layer> layers, const std::string& file,
   return std::ranges::any_of(layers, [&](const Layer& layer) {
     if (!shows_layer_of(layer, file)) return false;
     const ImageReference& image = *layer.image;
+    if (is_unclear(image)) return true;
     if (!image.sha256.empty()) return image.sha256 != files.sha256(file);
     const FileLayers& now = files.layers(file);
     return image.width > 0 && (image.width != now.width || image.height != now.height);
@@ -333,12 +300,10 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
   LayerUpdate update;
   update.file = file;
   update.report.file = Path(file).filename().string();
-  update.unclear = finder.unclear();
   update.added = finder.added();
   PixelPosition before;
   for (const Layer& layer : layers)
-    if (before == PixelPosition{} && shows_layer_of(layer, file) &&
-        !(layer.image->mark && layer.image->mark->lost))
+    if (before == PixelPosition{} && shows_layer_of(layer, file) && !is_lost(*layer.image))
       before = {layer.image->width, layer.image->height};
   const PixelPosition now{files.layers(file).width, files.layers(file).height},
       shift = shift_of_canvas(finder, before, now);
@@ -350,24 +315,24 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
                               size_text(now) + " pixels; what is in the scene stays where it is");
   size_t repainted = 0;
   for (const Known& known : finder.known()) {
-    const auto unclear = std::ranges::find(update.unclear, known.entry, &UnclearLayer::entry);
-    const bool is_unclear = unclear != update.unclear.end();
-    const std::string other_entry =
-        known.now         ? ""
-        : known.mark.lost ? known.entry
-                          : finder.free_entry(is_unclear ? kUnclear : kLost, known.entry);
-    if (is_unclear) unclear->entry = other_entry;
-    if (!known.now) {
-      if (!known.mark.lost && !is_unclear)
+    const std::vector<size_t> candidates = finder.candidates(known);
+    const std::string entry =
+        known.now ? finder.layer(*known.now).entry
+                  : finder.free_entry(candidates.empty() ? kLostEntry : kUnclearEntry, known.entry);
+    if (!candidates.empty()) {
+      update.unclear.push_back({entry, known.mark.name, {}});
+      for (const size_t i : candidates) update.unclear.back().candidates.push_back(finder.layer(i));
+    } else if (!known.now) {
+      if (!known.was_lost)
         update.report.add(known.mark.name, "is no longer in the file; its cage and pins are kept");
     } else {
-      if (known.mark.lost) update.report.add(known.mark.name, "is in the file again");
+      if (known.was_lost) update.report.add(known.mark.name, "is in the file again");
       const std::string& name = finder.layer(*known.now).name;
       if (name != known.mark.name && !known.mark.name.empty())
         update.report.add(known.mark.name, "is now called '" + name + "'");
     }
     const bool same = finder.is_unchanged(known);
-    repainted += known.now && !same && !known.mark.hash.empty() && !known.mark.lost;
+    repainted += known.now && !same && !known.mark.hash.empty() && !known.was_lost;
     const PixelPosition moved =
         same ? difference(difference(finder.mark(*known.now).offset, known.mark.offset), shift)
              : PixelPosition{};
@@ -376,11 +341,8 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
                                              "; its cage and pins have moved with it");
     for (const Layer& layer : layers) {
       if (!shows_layer_of(layer, file) || layer.image->entry != known.entry) continue;
-      const PixelPosition& corner = layer.image->corner;
-      update.changes[key_of(*layer.image)] =
-          known.now ? LayerChange{finder.layer(*known.now).entry,
-                                  difference(difference(corner, shift), moved), moved, true}
-                    : LayerChange{other_entry, difference(corner, shift), {}, false, !is_unclear};
+      update.changes[key_of(*layer.image)] = {
+          entry, difference(difference(layer.image->corner, shift), moved), moved};
     }
   }
   if (repainted > 0)

@@ -9,25 +9,23 @@ namespace holomorph {
 
 /// What becomes of the references to one layer of a file.
 struct LayerChange {
-  std::string entry;     ///< the layer now; of a layer that is not found, one that no layer has
+  std::string entry;     ///< as in ImageReference
   PixelPosition corner;  ///< of the canvas, in the plane of the layers that show it
   PixelPosition moved;   ///< how far these planes move, with all that is in them
-  bool is_here = false;  ///< it was found
-  bool lost = false;     ///< it is no longer in the file; otherwise it is unclear
 };
 
 /// A layer that may be one of several layers of the file, or none of them.
 struct UnclearLayer {
   std::string entry;                  ///< after apply()
   std::string name;                   ///< as it was
-  std::vector<FileLayer> candidates;  ///< what it may be now
+  std::vector<FileLayer> candidates;  ///< what it may be now, at least one
 };
 
 /// How the layers of one file are found again.
 struct LayerUpdate {
   std::string file;
   /// The changes, by the entry and the corner that a reference has.
-  std::map<std::pair<std::string, std::pair<int, int>>, LayerChange> changes;
+  std::map<std::pair<std::string, PixelPosition>, LayerChange> changes;
   std::vector<UnclearLayer> unclear;
   PixelPosition shift;           ///< how far the scene's content has moved on the canvas
   int width = 0, height = 0;     ///< of the canvas now
@@ -36,12 +34,7 @@ struct LayerUpdate {
 
   /// Applies the changes to a layer. Those that are not found only follow the canvas.
   void apply(Layer& layer) const;
-  /// Whether it is not clear what a layer is now, after apply().
-  bool is_unclear(const Layer& layer) const;
 };
-
-/// Whether a reference with this entry waits for the user to say which layer it is.
-bool is_entry_of_unclear(const std::string& entry);
 
 /// Which layer is which, as the user says: from the entry or name of a layer before to the entry or
 /// name of one in the file now, or to "" if it is lost.

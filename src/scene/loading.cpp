@@ -134,10 +134,6 @@ void withhold_unreachable(std::vector<Layer>& layers, const Path& scene, const L
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// What to say about the first layer of an update that is unclear.
 std::string unclear_text(const LayerUpdate& update) {
   return update.report.file + ": the file has changed, and it is not clear which layer '" +
@@ -149,11 +145,10 @@ std::string question_of(const LayerUpdate& update) {
                      "' may now be ";
   constexpr size_t kMostNamed = 5;
   const size_t named = std::min(unclear.candidates.size(), kMostNamed);
-  for (size_t i = 0; i < named; ++i)
-    text += (i == 0                                                 ? "'"
-             : i + 1 == named && named == unclear.candidates.size() ? " or '"
-                                                                    : ", '") +
-            unclear.candidates[i].name + "'";
+  for (size_t i = 0; i < named; ++i) {
+    const bool is_last = i + 1 == unclear.candidates.size();
+    text += (i == 0 ? "'" : is_last ? " or '" : ", '") + unclear.candidates[i].name + "'";
+  }
   if (named < unclear.candidates.size()) text += " or another layer";
   return text + "; use holomorph update with --match '" + unclear.name +
          "=NAME', or with no name after = if it is none of them";
@@ -184,8 +179,9 @@ void check_choices(std::span<const Layer> layers, const std::set<std::string>& f
 
 /// Finds the layers of the files that have changed. Returns the files in which this fails, whose
 /// layers must not be read.
-std::set<std::string> update_layers(std::vector<Layer>& layers, const LoadOptions& options,
-                                    PictureFiles& files, LoadedScene& loaded) {
+std::set<std::string> update_layers(std::vector<Layer>& layers, const Path& scene,
+                                    const LoadOptions& options, PictureFiles& files,
+                                    LoadedScene& loaded) {
   std::set<std::string> failed;
   std::set<std::string> names;
   for (const Layer& layer : layers)
@@ -204,7 +200,7 @@ std::set<std::string> update_layers(std::vector<Layer>& layers, const LoadOption
       if (!update.unclear.empty() && loaded.warning.empty()) loaded.warning = unclear_text(update);
       loaded.updates.push_back(std::move(update));
     } catch (const Error& error) {
-      if (!options.pictures_may_be_missing) throw;
+      if (!options.pictures_may_be_missing) throw about(scene, error);
       if (loaded.warning.empty()) loaded.warning = error.what();
       failed.insert(name);
     }
@@ -227,11 +223,11 @@ LoadedScene scene_of_text(const std::string& text, const Path& path, const LoadO
   }
   for_each_file(layers, [&](std::string& file) { file = resolved_path(path, file).string(); });
   withhold_unreachable(layers, path, options, files, loaded.pictures);
-  const std::set<std::string> failed = update_layers(layers, options, files, loaded);
+  const std::set<std::string> failed = update_layers(layers, path, options, files, loaded);
   for (size_t i = 0; i < layers.size(); ++i) {
     const auto& image = layers[i].image;
-    const bool is_unclear = image && is_entry_of_unclear(image->entry);
-    if (is_unclear || (image && !image->entry.empty() && failed.contains(image->file))) continue;
+    if (image && (is_unclear(*image) || (!image->entry.empty() && failed.contains(image->file))))
+      continue;
     const std::string pointer =
         path.string() + ": " + (layers.size() > 1 ? "/layers/" + std::to_string(i) : "");
     const std::string warning =

@@ -70,35 +70,26 @@ const FileLayers& PictureFiles::layers(const std::string& name) {
 
 Picture PictureFiles::layer_picture(const ImageReference& reference) {
   const File& file = read(reference.file);
-  if (reference.mark && reference.mark->lost) {
-    Image nothing(1, 1);
-    nothing.left = reference.corner.x;
-    nothing.bottom = reference.corner.y;
-    nothing.canvas = reference.page();
-    return {std::make_shared<const Image>(std::move(nothing)),
-            file.sha256,
-            file.changed,
-            {},
-            {},
-            reference.mark};
+  Picture picture{nullptr, file.sha256, file.changed};
+  picture.mark = reference.mark;
+  if (is_lost(reference)) {
+    picture.image = std::make_shared<const Image>(nothing_on(reference.page()));
+    return picture;
   }
   Image image = decode_layer(file.bytes, reference.entry, reference.file, pixels_);
-  const bool is_known = reference.mark && reference.sha256 == file.sha256;
-  LayerMark mark = is_known ? *reference.mark : mark_of(reference.file, reference.entry, image);
+  // Only a file that has changed costs the time for new hashes.
+  if (!picture.mark || reference.sha256 != file.sha256)
+    picture.mark = keep_mark(reference.file, reference.entry, image);
   move(image, reference.corner);
-  return {std::make_shared<const Image>(std::move(image)),
-          file.sha256,
-          file.changed,
-          {},
-          {},
-          std::move(mark)};
+  picture.image = std::make_shared<const Image>(std::move(image));
+  return picture;
 }
 
-const LayerMark& PictureFiles::mark_of(const std::string& file, const std::string& entry,
-                                       const Image& image) {
+const LayerMark& PictureFiles::keep_mark(const std::string& file, const std::string& entry,
+                                         const Image& image) {
   const auto& all = layers(file).layers;
   const auto found = std::ranges::find(all, entry, &FileLayer::entry);
-  LayerMark mark = holomorph::mark_of(image, found == all.end() ? "" : found->name);
+  LayerMark mark = mark_of(image, found == all.end() ? "" : found->name);
   return read(file).marks.insert_or_assign(entry, std::move(mark)).first->second;
 }
 
@@ -106,7 +97,7 @@ const LayerMark& PictureFiles::mark(const std::string& name, const std::string& 
   const File& file = read(name);
   if (const auto known = file.marks.find(entry); known != file.marks.end()) return known->second;
   PixelBudget alone;  // the pixels are not kept
-  return mark_of(name, entry, decode_layer(file.bytes, entry, name, alone));
+  return keep_mark(name, entry, decode_layer(file.bytes, entry, name, alone));
 }
 
 ImageReference reference_in(const Path& file, const std::string& entry) {
@@ -168,10 +159,8 @@ const Image* Pictures::of(const Layer& layer) const {
 }
 
 Pictures::Source Pictures::source_of(const ImageReference& reference) {
-  return {reference.file,
-          reference.entry,
-          reference.clip || is_film(reference.file),
-          {reference.corner.x, reference.corner.y}};
+  return {reference.file, reference.entry, reference.clip || is_film(reference.file),
+          reference.corner};
 }
 
 const Picture* Pictures::find(const ImageReference& reference) const {
@@ -240,7 +229,7 @@ std::vector<ImageReference> Pictures::changed() const {
     const auto now = fs::last_write_time(source.file, error);
     if (error || now == picture.changed) continue;
     all.push_back(reference_in(source.file, source.entry));
-    all.back().corner = {source.corner.first, source.corner.second};
+    all.back().corner = source.corner;
     if (source.moves) all.back().clip.emplace();
   }
   return all;

@@ -48,7 +48,7 @@ class PictureFiles {
   };
   File& read(const std::string& name);
   Picture layer_picture(const ImageReference& reference);
-  const LayerMark& mark_of(const std::string& file, const std::string& entry, const Image& image);
+  const LayerMark& keep_mark(const std::string& file, const std::string& entry, const Image& image);
 
   std::map<std::string, File> files_;  ///< keyed by path
   PixelBudget pixels_;
@@ -106,7 +106,7 @@ class Pictures {
   struct Source {
     std::string file, entry;
     bool moves = false;
-    std::pair<int, int> corner = {};  ///< as in ImageReference
+    PixelPosition corner = {};  ///< as in ImageReference
     auto operator<=>(const Source&) const = default;
   };
   static Source source_of(const ImageReference& reference);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "core/geometry/similarity.h"
 #include "scene/deformation.h"
@@ -26,16 +27,15 @@ struct Clip {
 /// A position in whole pixels, y up.
 struct PixelPosition {
   int x = 0, y = 0;
-  bool operator==(const PixelPosition&) const = default;
+  auto operator<=>(const PixelPosition&) const = default;
 };
 
 /// What a layer of a file with layers was like when it was last read. When the file has changed,
 /// the layer is found again by this; see layer_update.h.
 struct LayerMark {
   std::string name;      ///< as in FileLayer
-  std::string hash;      ///< of its pixels; see mark_of()
+  std::string hash;      ///< of its pixels; see mark_of(). Empty: not known, or it has no content
   PixelPosition offset;  ///< of the lower left corner of its content from that of the canvas
-  bool lost = false;     ///< it was no longer in the file
   bool operator==(const LayerMark&) const = default;
 };
 
@@ -43,7 +43,9 @@ struct LayerMark {
 /// scene's folder in a scene file, and absolute in a loaded scene.
 struct ImageReference {
   std::string file;
-  std::string entry = {};     ///< for a layer of a file with layers, its FileLayer::entry
+  /// For a layer of a file with layers, its FileLayer::entry. While it is not found in the file,
+  /// its entry begins with kLostEntry or kUnclearEntry, because other layers may get the old one.
+  std::string entry = {};
   int width = 0, height = 0;  ///< of the picture, or of the canvas on which a layer lies
   PixelPosition corner = {};  ///< the lower left corner of this canvas in the layer's plane
   std::string sha256;         ///< of the file's bytes, or of the first 16 MiB of a film
@@ -58,6 +60,16 @@ struct ImageReference {
   }
   bool operator==(const ImageReference&) const = default;
 };
+
+/// How the entry of a layer begins that is no longer in its file and shows nothing, and that of a
+/// layer that may be one of several in its file until the user says which one.
+inline constexpr std::string_view kLostEntry = "lost:", kUnclearEntry = "unclear:";
+inline bool is_lost(const ImageReference& image) {
+  return image.entry.starts_with(kLostEntry);
+}
+inline bool is_unclear(const ImageReference& image) {
+  return image.entry.starts_with(kUnclearEntry);
+}
 
 /// How a layer's colors combine with those below it (W3C Compositing and Blending, 9.1). `add` is
 /// the sum, up to white.

@@ -85,6 +85,12 @@ class ProductWindowTest(WindowCase):
             editor.press_item("Later")
             editor.wait(lambda s: not s["asking"], "no question")
             self.screenshot(editor, "which-layer-later")
+            later = os.path.join(self.work, "later.json")
+            self.save_as(editor, later)
+            refused = subprocess.run([PROGRAM, "render", later, "--out", os.path.join(self.work, "later.png")], capture_output=True, text=True)
+            self.assertEqual(refused.returncode, 2, "a saved scene still has the question")
+            self.assertIn("the layer 'arm' may now be", refused.stderr)
+            scene = later
             editor.press_item("Choose...")
             editor.wait(lambda s: s["question"] == "Which layer is it?", "the question again")
             editor.press_item("layer")

@@ -15,6 +15,12 @@ namespace {
 
 constexpr float kSide = 56;  // of a thumbnail
 
+/// A name in which nothing looks like the mark before the hidden part of a label.
+std::string plain(std::string name) {
+  for (size_t at = 0; (at = name.find("##", at)) != std::string::npos;) name.replace(at, 2, "# #");
+  return name;
+}
+
 }  // namespace
 
 void LayerQuestion::ask(FoundLayers found, std::function<void(const LayerChoices&)> answered) {
@@ -51,7 +57,7 @@ void LayerQuestion::draw_row(size_t number, Thumbnails& thumbnails) {
   wrapped_text(unclear.name.empty() ? "Layer without a name" : unclear.name);
   if (begin_dropdown("##layer", name_of(), ImGui::GetContentRegionAvail().x)) {
     for (const FileLayer& candidate : unclear.candidates)
-      if (dropdown_row(candidate.name + "##" + candidate.entry, chosen == candidate.entry,
+      if (dropdown_row(plain(candidate.name) + "##" + candidate.entry, chosen == candidate.entry,
                        !is_taken(candidate.entry, number)))
         chosen = candidate.entry;
     if (dropdown_row("None of them", chosen == "")) chosen = "";
@@ -68,8 +74,8 @@ void LayerQuestion::draw(Thumbnails& thumbnails) {
   if (!begin_dialog(kTitle, "###layers", 460)) return;
   const bool several = chosen.size() > 1;
   wrapped_text(file + " has changed. Choose what " +
-               (several ? "each of these layers is" : "this layer is") +
-               " now. It keeps its cage, pins and keyframes.");
+               (several ? "each of these layers is now. They keep their cages, pins and keyframes."
+                        : "this layer is now. It keeps its cage, pins and keyframes."));
   constexpr float kMostRows = 5;
   const float rows = std::min(static_cast<float>(chosen.size()), kMostRows);
   ImGui::BeginChild("rows", {0, rows * px(kSide + 12)});

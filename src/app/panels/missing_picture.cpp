@@ -21,7 +21,7 @@ void draw_missing_picture(Workspace& workspace) {
       missing.size() > 1 ? ", and " + std::to_string(missing.size() - 1) + " more" : "";
   const bool withheld = workspace.document.pictures().withheld().contains(file.string());
   const Layer& layer = *workspace.document.scene().layers[missing.front()];
-  const bool unclear = !withheld && is_entry_of_unclear(layer.image->entry);
+  const bool unclear = !withheld && is_unclear(*layer.image);
   wrapped_text(std::string(icon_named("warning")) + "  " + file.filename().string() +
                (withheld  ? " is not in the scene's folder"
                 : unclear ? ": it is not clear which layer \"" + name_in_file(layer) + "\" is now"

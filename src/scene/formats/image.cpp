@@ -73,6 +73,24 @@ void round_fine(Image& image) {
                           : 0;
 }
 
+PixelRange filled_range(const Image& image) {
+  PixelRange range{image.width, image.height, 0, 0};
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c)
+      if (is_filled(image, c, r))
+        range = {std::min(range.left, c), std::min(range.top, r), std::max(range.right, c + 1),
+                 std::max(range.bottom, r + 1)};
+  return range;
+}
+
+Image nothing_on(const Box& canvas) {
+  Image nothing(1, 1);
+  nothing.left = static_cast<int>(canvas.left);
+  nothing.bottom = static_cast<int>(canvas.bottom);
+  nothing.canvas = canvas;
+  return nothing;
+}
+
 Image cut_out(const Image& image, int left, int top, int width, int height) {
   Image part(width, height);
   if (!image.fine.empty()) part.fine.resize(part.pixels.size());

@@ -52,6 +52,15 @@ inline bool is_filled(const Image& image, int column, int row) {
   const size_t alpha = image.index(column, row) + 3;
   return image.fine.empty() ? image.pixels[alpha] > 0 : image.fine[alpha] > 0;
 }
+/// Rows and columns of a picture, from the first to behind the last.
+struct PixelRange {
+  int left = 0, top = 0, right = 0, bottom = 0;
+  bool empty() const { return right <= left; }
+};
+/// The pixels that are not fully transparent.
+PixelRange filled_range(const Image& image);
+/// A transparent pixel at the lower left corner of a canvas.
+Image nothing_on(const Box& canvas);
 /// A part of a picture, in whole pixels.
 Image cut_out(const Image& image, int left, int top, int width, int height);
 

@@ -11,35 +11,17 @@
 #include "system/text.h"
 
 namespace holomorph {
-
 namespace {
-
-/// A part of a picture, in pixels from its upper left corner.
-struct PixelRange {
-  int left = 0, top = 0, right = 0, bottom = 0;
-};
-
-/// The pixels that are not transparent; without any, the first one.
-PixelRange filled_range(const Image& image) {
-  PixelRange content{image.width, image.height, 0, 0};
-  for (int r = 0; r < image.height; ++r)
-    for (int c = 0; c < image.width; ++c)
-      if (image.at(c, r)[3] > 0) {
-        content.left = std::min(content.left, c);
-        content.right = std::max(content.right, c + 1);
-        content.top = std::min(content.top, r);
-        content.bottom = r + 1;
-      }
-  return content.right == 0 ? PixelRange{0, 0, 1, 1} : content;
-}
 
 /// The content of a picture, with one transparent row or column at each side that lies inside the
 /// canvas: colors are mixed across the edges of the content.
 Image trimmed(const Image& image) {
-  const auto [left, top, right, bottom] = filled_range(image);
+  const PixelRange filled = filled_range(image);
+  if (filled.empty()) return nothing_on(image.page());
+  const auto [left, top, right, bottom] = filled;
   const Box canvas = image.page();
-  const int before = image.left + left > canvas.left, above = image.top() - top < canvas.top,
-            after = image.left + right<canvas.right, below = image.top() - bottom> canvas.bottom;
+  const bool before = image.left + left > canvas.left, above = image.top() - top < canvas.top;
+  const bool after = image.left + right<canvas.right, below = image.top() - bottom> canvas.bottom;
   Image content(right - left + before + after, bottom - top + above + below);
   for (int r = top; r < bottom; ++r)
     std::copy_n(image.at(left, r), 4 * (right - left), content.at(before, r - top + above));
@@ -69,10 +51,9 @@ Image decode_layer(const std::string& bytes, const std::string& entry, const std
 }
 
 LayerMark mark_of(const Image& image, const std::string& name) {
-  const auto [left, top, right, bottom] = filled_range(image);
-  const PixelPosition corner{image.left + left, image.top() - bottom};
-  if (image.at(left, top)[3] == 0 && right - left == 1 && bottom - top == 1)
-    return {name, "", corner};  // all layers without content are alike
+  const PixelRange content = filled_range(image);
+  if (content.empty()) return {name, "", {}};  // all layers without content are alike
+  const auto [left, top, right, bottom] = content;
   std::string bytes = std::to_string(right - left) + " x " + std::to_string(bottom - top) + "\n";
   for (int r = top; r < bottom; ++r)
     for (int c = left; c < right; ++c) {
@@ -80,7 +61,7 @@ LayerMark mark_of(const Image& image, const std::string& name) {
       const std::uint8_t* pixel = image.at(c, r)[3] > 0 ? image.at(c, r) : kNothing;
       bytes.append(reinterpret_cast<const char*>(pixel), 4);
     }
-  return {name, sha256_hex(bytes), corner};
+  return {name, sha256_hex(bytes), {image.left + left, image.top() - bottom}};
 }
 
 DrawnLayer background_layer(const LayeredPicture& picture) {

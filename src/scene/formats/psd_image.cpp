@@ -278,11 +278,7 @@ Image decode_psd_layer(const std::string& bytes, const std::string& entry, const
   const int height = static_cast<int>(psd.height);
   const Box canvas{0, 0, static_cast<double>(psd.width), static_cast<double>(psd.height)};
   const PsdBounds kept = is_small(record.bounds) ? record.bounds : on_canvas(record.bounds, psd);
-  if (kept.width() == 0 || kept.height() == 0) {
-    Image nothing(1, 1);
-    nothing.canvas = canvas;
-    return nothing;
-  }
+  if (kept.width() == 0 || kept.height() == 0) return nothing_on(canvas);
   pixels.take(kept.width(), kept.height(), name, psd.depth == 16 ? 3 : 1);
   std::vector<PsdRows> colors;
   for (size_t k = 0; k < psd.colors(); ++k) {

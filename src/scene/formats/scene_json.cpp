@@ -62,7 +62,6 @@ void read_mark(const Reader& reader, ImageReference& image) {
   mark.hash = reader["hash"].text();
   if (reader.has("name")) mark.name = reader["name"].text();
   if (reader.has("offset")) mark.offset = read_pixel(reader["offset"]);
-  if (reader.has("lost")) mark.lost = reader["lost"].truth();
   image.mark = std::move(mark);
 }
 
@@ -72,7 +71,6 @@ void write_mark(const ImageReference& image, Json& item) {
   item["name"] = image.mark->name;
   item["offset"] = pixel_json(image.mark->offset);
   item["hash"] = image.mark->hash;
-  if (image.mark->lost) item["lost"] = true;
 }
 
 ImageReference read_image(const Reader& reader) {
@@ -95,7 +93,7 @@ ImageReference read_image(const Reader& reader) {
   }
   read_mark(reader, image);
   image.extra = reader.others(
-      {"file", "entry", "size", "sha256", "clip", "corner", "hash", "name", "offset", "lost"});
+      {"file", "entry", "size", "sha256", "clip", "corner", "hash", "name", "offset"});
   return image;
 }
 
