@@ -159,7 +159,10 @@ MeshFiles mesh_files_of(const MovingMeshes& moving, const MeshExport& wanted) {
   if (format == "pc2") return {{out, pc2_of(moving.meshes[0], moving.times)}};
   MeshFiles files{{out, ""}};
   const std::vector<std::string> textures = add_textures(moving, out, files);
-  files[0].second = format == "godot" ? godot_of(moving, textures) : spine_of(moving, textures);
+  files[0].second = format == "spine"
+                        ? spine_of(moving, textures)
+                        : godot_of(moving, textures,
+                                   format == "godot3" ? GodotVersion::three : GodotVersion::four);
   return files;
 }
 

@@ -73,6 +73,87 @@ class Glb:
         return [0], [first]
 
 
+class GodotScene:
+    """A reader of text scenes of Godot 3 and 4, in which every name of a resource must lead somewhere."""
+
+    def __init__(self, text, version):
+        self.version, self.resources, self.nodes = version, {}, {}
+        self.arrays = ({"PackedVector2Array": 2, "PackedFloat32Array": 1, "PackedInt32Array": 0} if version == 4 else
+                       {"PoolVector2Array": 2, "PoolRealArray": 1, "PoolIntArray": 0})
+        sections = re.split(r"(?m)^\[(\w+)((?: [^\]\n]*)?)\]\n", text)
+        assert sections[0] == "" and sections[1] == "gd_scene"
+        counted, named = 0, set()
+        for kind, head, body in zip(sections[1::3], sections[2::3], sections[3::3]):
+            self.text, self.at = head, 0
+            attributes = {}
+            while self.text[self.at:].strip():
+                key = re.compile(r"\s*(\w+)=").match(self.text, self.at)
+                self.at = key.end()
+                attributes[key[1]] = self.value()
+            self.text, self.at = body, 0
+            properties = {}
+            while self.text[self.at:].strip():
+                key = re.compile(r"\s*([\w/]+) = ").match(self.text, self.at)
+                assert key[1] not in properties
+                self.at = key.end()
+                properties[key[1]] = self.value()
+            if kind == "gd_scene":
+                assert attributes["format"] == version - 1 and not properties
+                steps = attributes["load_steps"]
+            elif kind in ("ext_resource", "sub_resource"):
+                counted += 1
+                assert isinstance(attributes["id"], str if version == 4 else int)
+                key = (kind, attributes["id"])
+                assert key not in self.resources
+                self.resources[key] = {**attributes, **properties}
+            else:
+                assert kind == "node" and attributes["name"] not in self.nodes
+                assert ("parent" in attributes) == bool(self.nodes)  # the root comes first
+                assert not set(attributes["name"]) & set('.:@/"%')
+                self.nodes[attributes["name"]] = properties
+        assert steps == counted + 1
+
+    def value(self):
+        """The value at the current place, behind which it moves."""
+        word = re.compile(r'\s*("(?:[^"\\]|\\.)*"|-?[\d.]+(?:e[+-]?\d+)?|\w+|[\[{])').match(self.text, self.at)
+        self.at, token = word.end(), word[1]
+        if token[0] == '"':
+            return json.loads(token)
+        if token == "[":
+            return self.items("]", self.value)
+        if token == "{":
+            return dict(self.items("}", self.pair))
+        if token in ("true", "false"):
+            return token == "true"
+        if not token[0].isalpha():
+            return float(token) if re.search("[.e]", token) else int(token)
+        assert self.text[self.at] == "("
+        self.at += 1
+        items = self.items(")", self.value)
+        if token in ("ExtResource", "SubResource"):
+            return self.resources[({"E": "ext_resource", "S": "sub_resource"}[token[0]], items[0])]
+        if token in self.arrays:
+            return numpy.array(items, float).reshape(-1, 2) if self.arrays[token] == 2 else items
+        assert token in ("NodePath", "Color"), token
+        return items[0] if token == "NodePath" else items
+
+    def pair(self):
+        key = self.value()
+        colon = re.compile(r"\s*:").match(self.text, self.at)
+        self.at = colon.end()
+        return key, self.value()
+
+    def items(self, end, read):
+        found = []
+        while True:
+            space = re.compile(r"[\s,]*").match(self.text, self.at)
+            self.at = space.end()
+            if self.text[self.at] == end:
+                self.at += 1
+                return found
+            found.append(read())
+
+
 class Meshes(Case):
     def positions(self, scene, *words):
         """The vertices of the edited layer's mesh, as `holomorph map` computes them."""
@@ -284,16 +365,51 @@ class Meshes(Case):
         self.assertRegex(told.stdout, r"Textures \(embed\.\):\s+2\b")
 
     def test_godot_scenes_have_the_frames(self):
-        scene = self.moving(random.Random(12), 1)
-        rate, _ = self.times(scene)
-        self.good("export", scene, "--format", "godot", *self.EACH_FRAME, "--out", self.path("g.tscn"))
-        text = self.content("g.tscn").decode()
-        self.assertTrue(os.path.exists(self.path("g-layer 0.png")))
-        values = re.search(r'"values": \[ (.*) \]', text)[1]
-        frames = [numpy.array([float(x) for x in list.split(",")]).reshape(-1, 2) for list in re.findall(r"PoolVector2Array\( (.*?) \)", values)]
-        self.assertEqual(len(frames), round(self.times(scene)[1] * rate) + 1)
-        for k, frame in enumerate(frames):
-            self.assertLess(numpy.abs(frame * [1, -1] - self.positions(scene, "--time", k / rate)).max(), 1e-4)
+        for version, seed in (("godot", 12), ("godot3", 12), ("godot", seed_of("Godot scenes", 13))):
+            with self.subTest(version=version, seed=seed):
+                scene = self.moving(random.Random(seed), 1)
+                rate, length = self.times(scene)
+                self.good("export", scene, "--format", version, *self.EACH_FRAME, "--out", self.path("g.tscn"), "--force")
+                godot = GodotScene(self.content("g.tscn").decode(), 3 if version == "godot3" else 4)
+                mesh, player = godot.nodes["layer 0"], godot.nodes["AnimationPlayer"]
+                self.assertEqual(mesh["texture"]["path"], "g-layer 0.png")
+                size = Image.open(self.path("g-layer 0.png")).size
+                self.assertTrue(((-1e-3 <= mesh["uv"]) & (mesh["uv"] <= numpy.array(size) + 1e-3)).all())
+                self.assertEqual(len(mesh["uv"]), len(mesh["polygon"]))
+                self.assertEqual(sorted({i for t in mesh["polygons"] for i in t}), list(range(len(mesh["uv"]))))
+                self.assertEqual(player["autoplay"], "motion")
+                motion = player["anims/motion"] if version == "godot3" else player["libraries"][""]["_data"]["motion"]
+                self.assertTrue(motion["loop"] is True if version == "godot3" else motion["loop_mode"] == 1)
+                self.assertAlmostEqual(motion["length"], length, places=6)
+                self.assertEqual((motion["tracks/0/type"], motion["tracks/0/path"]), ("value", "layer 0:polygon"))
+                self.assertEqual((motion["tracks/0/interp"], motion["tracks/0/keys"]["update"]), (1, 0))
+                keys = motion["tracks/0/keys"]
+                self.assertEqual(len(keys["values"]), round(length * rate) + 1)
+                self.assertEqual(len(keys["transitions"]), len(keys["values"]))
+                self.assertTrue((keys["values"][0] == mesh["polygon"]).all())
+                for k, (time, frame) in enumerate(zip(keys["times"], keys["values"], strict=True)):
+                    self.assertAlmostEqual(time, k / rate, places=6)
+                    self.assertLess(numpy.abs(frame * [1, -1] - self.positions(scene, "--time", k / rate)).max(), 1e-4)
+
+    def test_godot_versions_differ_in_words_alone(self):
+        scene = self.moving(random.Random(5), 3)
+        texts = []
+        for version in ("godot", "godot3"):
+            self.good("export", scene, "--format", version, "--out", self.path("g.tscn"), "--force")
+            text = self.content("g.tscn").decode()
+            GodotScene(text, 3 if version == "godot3" else 4)
+            texts.append(text)
+        four = texts[0]
+        for new, old in (("format=3", "format=2"), ("Texture2D", "Texture"), ("PackedVector2Array", "PoolVector2Array"),
+                         ("PackedFloat32Array", "PoolRealArray"), ("PackedInt32Array", "PoolIntArray"), ("loop_mode = 1", "loop = true"),
+                         ('\n[sub_resource type="AnimationLibrary" id="2"]\n_data = {\n"motion": SubResource("1")\n}\n', ""),
+                         ('libraries = {\n"": SubResource("2")\n}', "anims/motion = SubResource(1)")):
+            self.assertIn(new, four)
+            four = four.replace(new, old)
+        four = re.sub(r'(id=|Resource\()"(\d+)"', r"\1\2", four)
+        steps = re.compile(r"load_steps=(\d+)")
+        self.assertEqual(int(steps.search(four)[1]), int(steps.search(texts[1])[1]) + 1)  # the library
+        self.assertEqual(steps.sub("", four), steps.sub("", texts[1]))
 
     def test_spine_skeletons_are_whole(self):
         scene = self.moving(random.Random(13))
@@ -327,7 +443,7 @@ class Meshes(Case):
                             (["--format", "glb", "--scale", "2"], "--scale cannot be used with glb")):
             self.bad("export", FERN, "--out", self.path("x"), *words, says=says)
         self.bad("export", FERN, "--out", "-", "--format", "godot", says="several files")
-        self.bad("export", still, "--format", "glb", "--keys", "--out", self.path("x"), says="single moment")
+        self.bad("export", still, "--format", "glb", "--keys", "--out", self.path("x.glb"), says="single moment")
 
     def test_the_scenes_own_picture_is_not_replaced(self):
         for name in ("fern.json", "fern.png"):

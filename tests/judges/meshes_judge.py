@@ -101,7 +101,7 @@ class MeshesJudge(Meshes):
         self.good("export", scene, "--format", "obj", "--out", self.path("m.obj"), "--frames", "0..5")
         for kind in ("glb", "mdd", "pc2"):
             source = self.path("m." + kind)
-            self.good("export", scene, "--format", kind, "--out", source, "--frames", "0..5")
+            self.good("export", scene, "--format", kind, "--out", source, "--frames", "0..5", *(self.EACH_FRAME if kind == "glb" else ()))
             seen = self.by_blender(kind, source, 6, rate)
             unit = 100 if kind == "glb" else 1
             farthest = 0
@@ -117,7 +117,7 @@ class MeshesJudge(Meshes):
         seed = random.randrange(1 << 30)
         scene = self.moving(random.Random(seed), 2)
         rate, _ = self.times(scene)
-        self.good("export", scene, "--format", "godot", "--out", self.path("s.tscn"))
+        self.good("export", scene, "--format", "godot3", *self.EACH_FRAME, "--out", self.path("s.tscn"))
         times = [1 / rate, 3 / rate, 5 / rate]
         self.write("project.godot", 'config_version=4\n[application]\nconfig/name="s"\n')
         self.write("look.gd", GODOT.replace("TIMES", str(times)).replace("    ", "\t"))

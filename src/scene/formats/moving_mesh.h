@@ -46,9 +46,11 @@ std::string glb_of(const MovingMeshes& moving);
 std::string mdd_of(const MovingMesh& mesh, const std::vector<double>& times);
 std::string pc2_of(const MovingMesh& mesh, const std::vector<double>& times);
 
-/// A text scene for Godot 3: a Polygon2D for each mesh, with textures from these files, and an
+enum class GodotVersion : uint8_t { three, four };
+/// A text scene for Godot: a Polygon2D for each mesh, with textures from these files, and an
 /// AnimationPlayer that moves their polygons. Positions in pixels, y down.
-std::string godot_of(const MovingMeshes& moving, const std::vector<std::string>& textures);
+std::string godot_of(const MovingMeshes& moving, const std::vector<std::string>& textures,
+                     GodotVersion version);
 
 /// A skeleton for Spine 4.1: a slot with a mesh for each layer, and timelines that deform them,
 /// with textures from these files. Positions in pixels, y up.
