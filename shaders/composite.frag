@@ -30,7 +30,7 @@ void main() {
   }
   if (blending == 4) mixed = min(cs + cb, 1.0);
   if (clipped) {
-    color = vec4(b * mix(cb, (1.0 - b) * cs + b * mixed, a), b);
+    color = vec4(b * mix(cb, mixed, a), b);
     return;
   }
   color = vec4(a * (1.0 - b) * cs + b * (1.0 - a) * cb + a * b * mixed, a + b - a * b);

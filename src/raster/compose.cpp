@@ -46,20 +46,21 @@ void fade(Image& image, const LayerInk& ink) {
     image.pixels[i] = static_cast<std::uint8_t>(divided_by_255(image.pixels[i] * ink.opacity));
 }
 
-/// Blends one pixel onto another (W3C Compositing and Blending, 5.6, 9.1.3, and source-atop for
-/// clipped ink).
+/// Blends one pixel onto another (W3C Compositing and Blending, 5.6, 9.1.3). Clipped ink is
+/// blended as if the base were opaque, as in painting programs. If the part of the base that is
+/// transparent showed the ink unblended, Multiply would draw light fringes on soft, dark edges.
 void blend_pixel(const std::array<float, 4>& over, std::array<float, 4>& under,
                  const LayerInk& ink) {
   const float opacity = static_cast<float>(ink.opacity) / 255, a = over[3] * opacity, b = under[3];
   if (a <= 0 || (ink.clipped && b <= 0)) return;
-  const float shown = ink.clipped ? b : 1;  // the part of `over` that can be seen
+  const float alone = ink.clipped ? 0 : 1 - b;  // the part of `over` that nothing is below
   if (ink.blending == Blending::normal) {
-    for (size_t k = 0; k < 3; ++k) under[k] = shown * opacity * over[k] + (1 - a) * under[k];
+    for (size_t k = 0; k < 3; ++k) under[k] = (alone + b) * opacity * over[k] + (1 - a) * under[k];
   } else {
     for (size_t k = 0; k < 3; ++k) {
       const float cs = over[k] / over[3],
                   mixed = b > 0 ? blended(ink.blending, cs, under[k] / b) : cs;
-      under[k] = shown * a * ((1 - b) * cs + b * mixed) + (1 - a) * under[k];
+      under[k] = a * (alone * cs + b * mixed) + (1 - a) * under[k];
     }
   }
   if (!ink.clipped) under[3] = a + b - a * b;

@@ -129,7 +129,7 @@ class EditorWindowTest(WindowCase):
         layers = []
         for i, (left, right) in enumerate(squares):
             picture = Image.new("RGBA", (300, 200))
-            picture.paste(colors[i] + (255,), (left, 0, right, 200))
+            picture.paste(colors[i] + ((150 if i == 1 else 255),), (left, 0, right, 200))  # the base is soft
             picture.save(os.path.join(self.work, f"{i}.png"))
             layers.append({"image": {"file": f"{i}.png"}, "clipped": i in (2, 3), "opacity": [1, 0.8, 1, 0.6][i],
                            "blending": ["normal", "screen", "normal", "multiply"][i],
@@ -1111,6 +1111,26 @@ class EditorWindowTest(WindowCase):
             editor.process.wait(timeout=10)
         with Editor([scene], home=home) as editor:
             editor.wait(lambda s: s["pictured"] and not s["asking"], "no offer")
+
+    def test_recovered_work_that_has_no_file_can_be_exported(self):
+        home = self.home_of_tests()
+        picture = self.plain("leaf.png", (200, 80, 40), (300, 200))
+        with Editor([picture], home=home) as editor:
+            editor.wait(lambda s: s["pictured"] and not s["busy"], "the picture")
+            editor.drag((150, 100), (190, 120))
+            editor.wait(lambda s: s["modified"], "an edit")
+            editor.pause(0.3)
+            editor.process.kill()
+            editor.process.wait()
+        with Editor([], home=home) as editor:
+            editor.wait(lambda s: s["empty"], "the welcome page")
+            editor.press_item("Recover")
+            editor.wait(lambda s: s["modified"] and s["pictured"] and not s["busy"], "the recovered work")
+            self.ask(editor, "ctrl+e")
+            self.screenshot(editor, "export-recovered")
+            editor.key("Return")
+            out = os.path.join(self.work, "leaf-bent.png")
+            editor.wait(lambda s: os.path.exists(out) and not s["exporting"] and not s["asking"], "the exported picture")
 
     def test_no_preferences_end_the_window(self):
         for text in ('{"recent":[""]}', '{"recent":["/a##b","/a##b","' + "x" * 5000 + '","/' + "y" * 3000 + '"]}', "[", '{"keys":{"file.open":["A B C"]}}',

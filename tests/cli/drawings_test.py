@@ -368,6 +368,27 @@ class Drawings(Case):
             self.assertLessEqual({"layer-1-g", "layer-3-g", "layer-5-g"}, set(ids), "the gradients of the drawings")
             self.assertNotIn("g", ids)
 
+    def test_clipped_ink_on_soft_edges_has_no_fringe(self):
+        """Pictures whose alpha falls off slowly, and light or dark ink that is clipped to them."""
+        for _ in range(4):
+            layers = []
+            for i, dark in enumerate((True, False, True)):
+                y, x = numpy.mgrid[0:120, 0:160]
+                pixels = numpy.zeros((120, 160, 4), numpy.uint8)
+                pixels[..., :3] = [self.chance.randrange(0, 90) if dark else self.chance.randrange(160, 256) for _ in range(3)]
+                fall = self.chance.uniform(3, 8)
+                pixels[..., 3] = numpy.clip((55 - numpy.hypot(x - 80, y - 60)) * fall, 0, 255) if i == 0 else 255
+                Image.fromarray(pixels, "RGBA").save(self.path(f"{i}.png"))
+                layers.append({"image": {"file": f"{i}.png"}, "cage": {"rest": []}, "clipped": i > 0,
+                               "opacity": 1 if i == 0 else self.chance.choice([1, 0.6]),
+                               "blending": "normal" if i == 0 else self.chance.choice(["multiply", "screen", "overlay"])})
+            background = self.chance.choice([{}, {"background": "#ffffff"}, {"background": "#204060"}])
+            path = self.write("soft.json", {"format": "holomorph", "version": 2, "layers": layers, **background})
+            svg, _ = self.exported(path)
+            self.good("render", path, "--out", self.path("soft.png"), "--force")
+            ours, theirs = premultiplied(Image.open(self.path("soft.png"))), premultiplied(self.drawn(svg))
+            self.assertLess(numpy.abs(ours - theirs).max(), 4, [layer["blending"] for layer in layers])
+
     def test_motions_show_the_moment(self):
         w, h = 1100, 900
         self.write("a.svg", f"<svg xmlns='http://www.w3.org/2000/svg' width='{w}' height='{h}'>"

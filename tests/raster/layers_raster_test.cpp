@@ -297,29 +297,31 @@ TEST_CASE("Many faint layers add up as they do without rounding") {
 }
 
 TEST_CASE("A clipped layer is drawn only where its base is, and does not show through it") {
-  for (const unsigned seed : seeds_of("clipping", {1, 2})) {
+  for (const unsigned seed : seeds_of("clipping", {1, 2, 3, 4, 5, 6})) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     Image images[4] = {Image(20, 10), Image(20, 10), Image(20, 10), Image(30, 30)};
     for (Image& image : images)
       for (std::uint8_t& value : image.pixels) value = static_cast<std::uint8_t>(random() % 256);
-    const LayerInk base{200, Blending::multiply}, clipped{150, Blending::screen, true};
+    const auto mode = static_cast<Blending>(random() % kBlendingNames.size());
+    INFO(kBlendingNames[static_cast<size_t>(mode)]);
+    const LayerInk base{200, Blending::multiply}, clipped{150, mode, true};
     Composition all(1);
     all.add({images[0], 0});
     all.add({images[1], 0}, base);
     all.add({images[3], Complex(-4, -9)}, clipped);
-    // The same by W3C Compositing and Blending: the base with what is atop of it is a group.
+    // The same with the base and what is clipped to it as one layer.
     Composition group(1);
     Image atop = images[1];
     for (int r = 0; r < 10; ++r)
       for (int c = 0; c < 20; ++c) {
         const std::uint8_t* over = images[3].at(c + 4, r + 11);
         std::uint8_t* pixel = atop.at(c, r);
-        const double a = over[3] / 255.0 * 150 / 255, b = pixel[3] / 255.0;
+        const double a = over[3] / 255.0 * 150 / 255;
         for (int k = 0; k < 3; ++k) {
           const double cs = over[k] / 255.0, cb = pixel[k] / 255.0;
-          pixel[k] = static_cast<std::uint8_t>(std::lround(
-              255 * (a * ((1 - b) * cs + b * mixed(Blending::screen, cs, cb)) + (1 - a) * cb)));
+          pixel[k] = static_cast<std::uint8_t>(
+              std::lround(255 * (a * mixed(mode, cs, cb) + (1 - a) * cb)));
         }
       }
     group.add({images[0], 0});
@@ -332,6 +334,37 @@ TEST_CASE("A clipped layer is drawn only where its base is, and does not show th
       if (seen.pixels[i | 3] > 64)
         farthest = std::max(farthest, std::abs(seen.pixels[i] - wanted.pixels[i]));
     CHECK(farthest <= 1);
+  }
+}
+
+TEST_CASE("Clipped layers draw no fringes: the colors do not depend on how soft the base is") {
+  for (const unsigned seed : seeds_of("soft bases", {1, 2, 3})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    for (size_t mode = 0; mode < kBlendingNames.size(); ++mode) {
+      INFO(kBlendingNames[mode]);
+      // A column for each alpha of a base of one color, with two layers of one color atop.
+      Pixel ground, lower, upper;
+      for (Pixel* pixel : {&ground, &lower, &upper})
+        for (std::uint8_t& value : *pixel) value = static_cast<std::uint8_t>(random() % 256);
+      Image base(256, 1);
+      for (int alpha = 0; alpha < 256; ++alpha) {
+        std::copy(ground.begin(), ground.end(), base.at(alpha, 0));
+        base.at(alpha, 0)[3] = static_cast<std::uint8_t>(alpha);
+      }
+      Composition all(1);
+      all.add({base, 0});
+      for (const Pixel& pixel : {lower, upper})
+        all.add({filled(256, 1, pixel), 0},
+                {static_cast<unsigned>(random() % 256), static_cast<Blending>(mode), true});
+      const Image seen = std::move(all).result().image;
+      const Pixel opaque = pixel_at(seen, 255, 0);
+      for (int alpha = 1; alpha < 255; ++alpha) {
+        const Pixel here = pixel_at(seen, alpha, 0);
+        REQUIRE(here[3] == alpha);
+        for (size_t k = 0; k < 3; ++k) REQUIRE(std::abs(here[k] - opaque[k]) <= 1);
+      }
+    }
   }
 }
 

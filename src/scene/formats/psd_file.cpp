@@ -72,6 +72,7 @@ void read_block(const FileBytes& file, const std::string& key, size_t place, siz
     if (kind == 3) record.section = PsdSection::divider;
     if (length >= 12) record.pass_through = file.text(place + 8, 4) == "pass";
   }
+  if (key == "clbl" && length >= 1) record.splits_clipped = file.at(place) == 0;
   if (key == "iOpa" && length >= 1) layer.opacity *= static_cast<double>(file.at(place)) / 255;
   if (key == "lfx2" || key == "lrFX" || key == "lmfx") add_lost(layer.lost, "its effects");
   if (key == "vmsk" || key == "vsms") add_lost(layer.lost, "its vector mask");

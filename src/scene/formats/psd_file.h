@@ -32,7 +32,8 @@ struct PsdRecord {
   FileLayer layer;
   bool pass_through = false;  ///< a group whose layers blend with what is below the group
   PsdSection section = PsdSection::layer;
-  bool skipped = false;  ///< has no pixels of its own
+  bool skipped = false;         ///< has no pixels of its own
+  bool splits_clipped = false;  ///< what is clipped to it also blends with what is below it
   std::optional<PsdBounds> mask;
   std::uint8_t outside_mask = 255;
 

@@ -2,6 +2,7 @@
 #include "scene/formats/psd_image.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "scene/budget.h"
@@ -47,6 +48,7 @@ void flatten(const std::vector<Node>& nodes, const FileLayer& group, FileLayers&
     all.report.add(layer.name, "left out: " + what);
   };
   bool has_base = false;
+  std::string split_base;  // its name, until something is clipped to it
   for (const Node& node : nodes) {
     FileLayer layer = node.record->layer;
     layer.name = group.name + layer.name;
@@ -63,6 +65,10 @@ void flatten(const std::vector<Node>& nodes, const FileLayer& group, FileLayers&
       layer.clipped = false;
     }
     if (is_group || !is_clipped) has_base = !is_group;
+    if (!is_clipped) split_base = node.record->splits_clipped ? layer.name : "";
+    if (layer.clipped && !split_base.empty())
+      all.report.add(std::exchange(split_base, ""),
+                     "converted: layers that are clipped to it blend with it alone");
     // The opacity of the base, and thus of its groups, also applies to what is clipped to it.
     if (!layer.clipped) layer.opacity *= group.opacity;
     if (!layer.lost.empty()) lose(layer, layer.lost + (is_group ? " (of the group)" : ""));

@@ -169,6 +169,7 @@ std::string record_of(const DrawnLayer& layer, size_t number, const std::vector<
   std::string id;
   put(id, number + 1, 4);
   put_block(extra, "lyid", id);
+  put_block(extra, "clbl", std::string("\1\0\0\0", 4));  // what is clipped to it blends with it
   if (section != RecordKind::layer) {
     std::string kind;
     put(kind, static_cast<size_t>(section), 4);

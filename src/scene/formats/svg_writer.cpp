@@ -1,5 +1,6 @@
 // A base and the layers that are clipped to it form a group. The mask of those layers is a white
-// copy of the base.
+// copy of the base. If one of them has a blending mode, they are blended with an opaque copy of the
+// base, and the mask is that of the group.
 #include "scene/formats/svg_writer.h"
 
 #include <algorithm>
@@ -68,6 +69,14 @@ std::string content_of(const DrawnLayer& layer) {
          base64(encode_png(layer.image)) + "\"/>";
 }
 
+/// A filter that multiplies colors and alpha by a matrix.
+std::string color_filter(const std::string& name, const std::string& matrix,
+                         const std::string& everywhere) {
+  return "<filter id=\"" + name + "\" filterUnits=\"userSpaceOnUse\"" + everywhere +
+         " color-interpolation-filters=\"sRGB\"><feColorMatrix values=\"" + matrix +
+         "\"/></filter>";
+}
+
 /// The mask with which layers are clipped to the content of a base.
 std::string mask_of(const std::string& base, const std::string& everywhere) {
   return "<mask id=\"mask-" + base + "\" maskUnits=\"userSpaceOnUse\"" + everywhere +
@@ -90,9 +99,9 @@ std::string encode_svg(const LayeredPicture& picture) {
          "\" viewBox=\"0 0 " + width + " " + height + "\">\n";
   const std::vector<DrawnLayer>& layers = picture.layers;
   if (std::ranges::any_of(layers, &DrawnLayer::clipped))
-    svg += "<defs><filter id=\"white\" filterUnits=\"userSpaceOnUse\"" + everywhere +
-           " color-interpolation-filters=\"sRGB\"><feColorMatrix values=\"0 0 0 0 1 0 0 0 0 1 0 0 "
-           "0 0 1 0 0 0 1 0\"/></filter></defs>\n";
+    svg += "<defs>" + color_filter("white", "0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0", everywhere) +
+           color_filter("opaque", "1 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 0 255 0", everywhere) +
+           "</defs>\n";
   if (picture.background) {
     char color[8];
     const auto& [r, g, b] = *picture.background;
@@ -108,11 +117,18 @@ std::string encode_svg(const LayeredPicture& picture) {
       svg += content_of(layers[i]) + "\n";
     } else {
       const std::string base = "base-" + std::to_string(i);
-      svg +=
-          "<g id=\"" + base + "\">" + content_of(layers[i]) + "</g>\n" + mask_of(base, everywhere);
+      const std::string mask = " mask=\"url(#mask-" + base + ")\"";
+      const bool blends = std::any_of(
+          layers.begin() + static_cast<long>(i) + 1, layers.begin() + static_cast<long>(end),
+          [](const DrawnLayer& layer) { return layer.blending != Blending::normal; });
+      const std::string content = "<g id=\"" + base + "\">" + content_of(layers[i]) + "</g>";
+      svg += mask_of(base, everywhere) +
+             (blends ? "<g" + mask + "><g filter=\"url(#opaque)\">" + content + "</g>" : content) +
+             "\n";
       for (size_t k = i + 1; k < end; ++k)
-        svg += named_group(layers[k]) + " mask=\"url(#mask-" + base + ")\"" + ink_of(layers[k]) +
-               ">" + content_of(layers[k]) + "</g>\n";
+        svg += named_group(layers[k]) + (blends ? "" : mask) + ink_of(layers[k]) + ">" +
+               content_of(layers[k]) + "</g>\n";
+      if (blends) svg += "</g>\n";
     }
     svg += "</g>\n";
     i = end;

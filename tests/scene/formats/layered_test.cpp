@@ -218,6 +218,28 @@ TEST_CASE("Groups pass on their names, opacity and visibility, and what is lost 
     CHECK_THAT(read.report.text(), Catch::Contains(said));
 }
 
+TEST_CASE("A PSD file says whether clipped layers blend with their base alone") {
+  // Together, as is usual, is what clipping means here.
+  for (const bool together : {true, false}) {
+    const std::string how = block("clbl", std::string{together, 0, 0, 0});
+    const FileLayers read = layers_of_file(psd_of({{.name = "hat", .blocks = how},
+                                                   {.name = "head", .blocks = how},
+                                                   {.name = "shade", .key = "mul ", .clipped = 1},
+                                                   {.name = "light", .key = "scrn", .clipped = 1}}),
+                                           "a.psd");
+    REQUIRE(read.layers.size() == 4);
+    CHECK(read.layers[3].clipped);
+    CHECK(read.report.text() ==
+          (together ? "" : "head: converted: layers that are clipped to it blend with it alone"));
+  }
+  // What we write says it, too.
+  LayeredPicture picture;
+  picture.merged = Image(2, 2);
+  picture.layers.push_back({.name = "base", .image = Image(2, 2)});
+  const std::string written = layered_format_named("psd")->encode(picture);
+  CHECK_THAT(written, Catch::Contains(std::string("8BIMclbl\0\0\0\4\1\0\0\0", 16)));
+}
+
 TEST_CASE("What is clipped to a group or above a clipped group is not clipped to another layer") {
   const PsdLayer divider{.name = "</Layer group>", .blocks = section(3, "pass")};
   const std::string bytes = psd_of({{.name = "A"},
