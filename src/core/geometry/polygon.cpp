@@ -107,10 +107,21 @@ NearestPoint nearest_on_segment(Complex a, Complex b, Complex z) {
   return {0, t, point, std::abs(z - point)};
 }
 
-NearestPoint nearest_on_polygon(PolygonView polygon, Complex z) {
+NearestPoint nearest_on_polygon(PolygonView polygon, Complex z, Index guess) {
   NearestPoint best;
   best.distance = 1e300;
+  if (guess > 0) {
+    best = nearest_on_segment(polygon[guess], polygon[polygon.loops().next(guess)], z);
+    best.edge = guess;
+  }
+  // How far a number lies outside of an interval. Most edges are too far away along one axis.
+  const auto beyond = [](double x, double from, double to) {
+    return std::max(std::min(from, to) - x, x - std::max(from, to));
+  };
   polygon.for_each_edge([&](Index edge, Complex a, Complex b) {
+    if (beyond(z.real(), a.real(), b.real()) >= best.distance ||
+        beyond(z.imag(), a.imag(), b.imag()) >= best.distance)
+      return;
     NearestPoint here = nearest_on_segment(a, b, z);
     here.edge = edge;
     if (here.distance < best.distance) best = here;

@@ -16,14 +16,18 @@ HalfWidth::HalfWidth(const Mesh& mesh) {
   Polygon outline{{}, mesh.starts};
   for (const int v : mesh.boundary) outline.points.push_back(mesh.vertices[static_cast<size_t>(v)]);
   std::vector<Disk> disks;
-  const auto add = [&](Complex center) {
-    disks.push_back({center, nearest_on_polygon(outline, center).distance});
+  std::vector<Index> edges;  // the nearest one of each vertex, which is near its triangles, too
+  const auto add = [&](Complex center, Index guess) {
+    const NearestPoint near = nearest_on_polygon(outline, center, guess);
+    disks.push_back({center, near.distance});
+    return near.edge;
   };
-  for (const Complex& z : mesh.vertices) add(z);
+  for (const Complex& z : mesh.vertices) edges.push_back(add(z, edges.empty() ? 0 : edges.back()));
   for (const auto& [a, b, c] : mesh.triangles)
     add((mesh.vertices[static_cast<size_t>(a)] + mesh.vertices[static_cast<size_t>(b)] +
          mesh.vertices[static_cast<size_t>(c)]) /
-        3.0);
+            3.0,
+        edges[static_cast<size_t>(a)]);
   std::ranges::sort(disks, std::greater{}, &Disk::radius);
   // Disks that a larger one reaches around say nothing. Most of the others lie along the middle.
   for (const Disk& disk : disks) {
