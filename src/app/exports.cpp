@@ -12,8 +12,13 @@ namespace holomorph {
 
 Path in_document_folder(const Document& document, const FileChooser& chooser,
                         const std::string& name) {
-  const Path& file = document.path();
-  return (file.empty() ? chooser.folder() : file.parent_path()) / name;
+  // A scene without a file that was recovered has only its pictures, if any.
+  for (const Path& folder :
+       {document.path().parent_path(), chooser.folder(), document.first_picture().parent_path()}) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder, ignored)) return folder / name;
+  }
+  return absolute_path(name);
 }
 
 void Exports::answer(Request request) {
