@@ -11,7 +11,8 @@ import attack
 options = attack.arguments(__doc__, runs=attack.few_or_many(25, 60), keep="")
 MOST_SECONDS, MOST_MEGABYTES = 20, 4096
 NUMBERS = [0, -0.0, 1, -1, 5e-324, 1e-308, 1e308, -1e308, 1e8, -1e8, 1e-9, 2**31, -2**31 - 1, 2**53 + 1, 0.5, 3600, 240, 1e-3]
-METHODS = ["cage", "pins", "arap", "har_arap", "outline", "strokes", "angles", "harmonic", "mean_value", "bounded"]
+METHODS = ["cage", "pins", "arap", "har_arap", "outline", "strokes", "angles", "harmonic", "mean_value", "bounded",
+           "puppet", "sheet"]
 COMMANDS = [["info"], ["info", "--json"], ["render", "--scale", "0.1", "--out", "o.png"],
             ["render", "--time", "0.5", "--scale", "0.1", "--out", "o.png"], ["map", "--points", "p.csv"],
             ["inverse", "--points", "p.csv"], ["coordinates", "--points", "p.csv", "--out", "o.npy"],
