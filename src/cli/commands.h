@@ -46,6 +46,12 @@ struct RenderCommand : SceneCommand {
   bool print_rectangle = false;   ///< of the whole motion, instead of drawing
   std::optional<int> depth = {};  ///< bits per color; none: as is usual in the format
 };
+/// Draws each of several scenes. `out` is a folder, or a name in which * stands for the name of the
+/// scene; for a single scene, it can be any name. What can be drawn is drawn, even if other scenes
+/// fail. Throws Error at the end if any failed, and before if pictures would replace each other.
+struct RenderScenesCommand : RenderCommand {
+  std::vector<Path> scenes;
+};
 /// A film whose frames many machines draw.
 struct FarmCommand : RenderCommand {
   std::string engine;
@@ -118,6 +124,7 @@ void run(const MapCommand& command);
 void run(const InverseCommand& command);
 void run(const CoordinatesCommand& command);
 void run(const RenderCommand& command);
+void run(const RenderScenesCommand& command);
 void run(const FarmCommand& command);
 void run(const InfoCommand& command);
 void run(const NewCommand& command);

@@ -29,7 +29,7 @@ struct CommandLine {
   MapCommand map;
   InverseCommand inverse;
   CoordinatesCommand coordinates;
-  RenderCommand render;
+  RenderScenesCommand render;
   FarmCommand farm;
   InfoCommand info;
   NewCommand new_scene;
@@ -94,7 +94,7 @@ CLI::App* CommandLine::add(CLI::App& app, const char* name, const char* what,
 void add_moments(CLI::App* sub, Moments& moments, const std::string& frames) {
   auto* time = sub->add_option("--time", moments.time,
                                "Time on the timeline, in seconds; after the last keyframe, its "
-                               "pose stays")
+                               "pose stays, and scenes without keyframes never change")
                    ->check([](const std::string& text) {
                      double value = 0;
                      return CLI::detail::lexical_cast(text, value) && value >= 0
@@ -131,10 +131,14 @@ void add_depth(CLI::App* sub, std::optional<int>& depth) {
                   "Bits per color: 8 or 16 in PNG files, 16 or 32 in OpenEXR files");
 }
 
-void add_scene(CLI::App* sub, SceneCommand& command) {
-  sub->add_option("SCENE", command.scene)->required();
+void add_outside(CLI::App* sub, SceneCommand& command) {
   sub->add_flag("--allow-outside", command.outside,
                 "Also read pictures that are not in the scene's folder");
+}
+
+void add_scene(CLI::App* sub, SceneCommand& command) {
+  sub->add_option("SCENE", command.scene)->required();
+  add_outside(sub, command);
 }
 
 void add_force(CLI::App* sub, bool& force, const char* what = "Also replace read-only files") {
@@ -176,10 +180,12 @@ void CommandLine::add_coordinates(CLI::App& app) {
 }
 
 void CommandLine::add_render(CLI::App& app) {
-  auto* sub =
-      add(app, "render", "Draw the posed scene to a PNG, JPEG, WebP or OpenEXR file", render);
-  add_scene(sub, render);
-  sub->add_option("--out", render.out, "File to write; its extension selects the format")
+  auto* sub = add(app, "render", "Draw posed scenes to PNG, JPEG, WebP or OpenEXR files", render);
+  sub->add_option("SCENE", render.scenes, "One scene or several")->required();
+  add_outside(sub, render);
+  sub->add_option("--out", render.out,
+                  "File to write; its extension selects the format. For several scenes a folder, "
+                  "or a name with * for the name of each scene, such as 'pictures/*.png'")
       ->required();
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
   sub->add_option("--view", render.view, "image, angle, area, stretch or checker")
@@ -308,10 +314,10 @@ void CommandLine::add_export(CLI::App& app) {
       sub->add_option("--rate", exported.rate,
                       "Frames per second of moving meshes, by default the fewest frames with "
                       "which the motion does not visibly differ; players interpolate between "
-                      "them; for glb, godot and spine")
+                      "them; for glb, Godot and Spine")
           ->check(CLI::Range(0.1, 500.0));
   sub->add_flag("--keys", exported.keys,
-                "Frames of moving meshes only at keyframes; for glb, godot and spine")
+                "Frames of moving meshes only at keyframes; for glb, Godot and Spine")
       ->excludes(rate);
   sub->add_option("--drawn", exported.drawn,
                   "Make a film of frames that 'render --frames' has written with this --out");

@@ -62,14 +62,13 @@ void require_keyframes(const Scene& scene, const Path& path) {
   if (!has_time(scene))
     throw Error(ErrorKind::bad_input,
                 shown_name(path) +
-                    ": the scene has no keyframes; --time, --frames and films need "
-                    "keyframes, or a film as a picture");
+                    ": the scene has no keyframes; --frames and films need keyframes, or a film "
+                    "as a picture");
 }
 
 std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path) {
-  if (!wanted.any()) return {{}};
-  require_keyframes(scene, path);
   if (!wanted.frames) return {{{}, wanted.time}};
+  require_keyframes(scene, path);
   std::vector<FrameTime> moments;
   const FrameRange range = frames_named(*wanted.frames, scene, true);
   for (int i = range.first; i <= range.last; i += range.step)

@@ -15,8 +15,6 @@ namespace holomorph {
 struct Moments {
   std::optional<double> time = {};         ///< seconds
   std::optional<std::string> frames = {};  ///< "A", "A..B", "A..B:STEP" or "all"
-
-  bool any() const { return time || frames; }
 };
 
 struct FrameRange {
@@ -33,7 +31,7 @@ struct FrameTime {
   std::optional<double> time = {};
 };
 /// The moments that the command line asks for, at least one. Throws Error if the frames are not a
-/// range of the scene's frames, or if times are given but the scene has no keyframes.
+/// range of the scene's frames, or if frames are named but the scene has no keyframes.
 std::vector<FrameTime> moments_of(const Moments& wanted, const Scene& scene, const Path& path);
 
 /// Throws Error if the scene has no keyframes. `path` is the scene's file.

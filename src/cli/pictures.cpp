@@ -97,10 +97,6 @@ void render_frames(const RenderCommand& command, LoadedScene& loaded, PictureOpt
 
 void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   require_keyframes(loaded.scene, command.scene);
-  if (!is_standard(command.out) &&
-      lower_case(command.out.extension().string()) != "." + command.format)
-    throw Error(ErrorKind::bad_input,
-                command.out.string() + ": the name must end in ." + command.format);
   FilmOptions options;
   options.picture.scale = command.scale.value_or(1);
   options.picture.crop = command.crop;
@@ -188,9 +184,6 @@ std::string drawings_text(const LayeredPicture& picture, const LayeredFormat& fo
 
 void export_layers(const LoadedScene& loaded, const ExportCommand& command,
                    const LayeredFormat& format) {
-  if (!is_standard(command.out) && lower_case(command.out.extension().string()) != format.extension)
-    throw Error(ErrorKind::bad_input,
-                command.out.string() + ": the name must end in " + format.extension);
   PictureOptions options;
   options.scale = command.scale.value_or(1);
   options.crop = command.crop;
@@ -210,6 +203,17 @@ void export_layers(const LoadedScene& loaded, const ExportCommand& command,
   std::fprintf(stderr, "%s: %zu layer%s of %d x %d pixels%s\n", shown_output(command.out).c_str(),
                picture.layers.size(), picture.layers.size() == 1 ? "" : "s", picture.merged.width,
                picture.merged.height, drawings_text(picture, format).c_str());
+}
+
+/// Throws Error if the name of the file says that it has another format.
+void check_extension(const ExportFormat& format, const Path& out) {
+  if (is_standard(out) || is_stream(out)) return;
+  const std::string extension = lower_case(out.extension().string());
+  if (std::ranges::find(format.extensions, extension) != format.extensions.end()) return;
+  std::string names;
+  for (const std::string& each : format.extensions) names += (names.empty() ? "" : " or ") + each;
+  throw Error(ErrorKind::bad_input,
+              out.string() + ": the name must end in " + names + " for --format " + format.id);
 }
 
 /// Throws Error for options that the format does not support.
@@ -239,13 +243,14 @@ void check_options(const ExportCommand& command) {
     throw_unsupported("--vertices", format.meshes ? "it needs --frames there"
                                                   : "it is for exports of moving meshes");
   if ((command.rate || command.keys) && !format.all_layers)
-    throw_unsupported(command.keys ? "--keys" : "--rate", "it is for glb, godot and spine");
+    throw_unsupported(command.keys ? "--keys" : "--rate", "it is for glb, Godot and Spine");
   if (command.moments.frames && !format.frames)
     throw_unsupported("--frames", format.time ? "it shows a single moment; use --time"
                                               : "it shows the scene's own pose");
   if (command.moments.time && !format.time)
     throw_unsupported("--time", format.frames ? "it shows many frames; use --frames"
                                               : "it shows the scene's own pose");
+  check_extension(format, command.out);
 }
 
 }  // namespace
@@ -261,7 +266,7 @@ int checked_depth(const PictureFormat& format, const std::optional<int>& wanted)
 void run(const RenderCommand& command) {
   LoadedScene loaded = read_scene(command);
   const Moments& moments = command.moments;
-  if (moments.any() || command.print_rectangle) require_keyframes(loaded.scene, command.scene);
+  if (moments.frames || command.print_rectangle) require_keyframes(loaded.scene, command.scene);
   if (command.print_rectangle) return print_motion_rectangle(loaded);
   if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
   const bool standard = is_standard(command.out);
@@ -310,7 +315,7 @@ void run(const ExportCommand& command) {
                              false,
                              command.depth});
   LoadedScene loaded = read_scene(command);
-  if (command.moments.any()) require_keyframes(loaded.scene, command.scene);
+  if (command.moments.frames) require_keyframes(loaded.scene, command.scene);
   if (command.moments.time) loaded.pictures.show_time(loaded.scene, *command.moments.time);
   const ExportFormat& known = export_format_named(format);
   if (known.meshes && (known.id != "obj" || command.moments.frames))

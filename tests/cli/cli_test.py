@@ -1,9 +1,11 @@
 # The command line: exact numbers, the published schema, and errors for bad input.
+import copy
 import csv
 import io
 import json
 import math
 import os
+import random
 import re
 import shutil
 import signal
@@ -318,6 +320,85 @@ class CommandLine(Case):
         film.seek(3)
         self.assertAlmostEqual(film.info["duration"], 1000 / 24, places=9)
 
+    def test_a_name_that_contradicts_the_format_is_refused(self):
+        scene = self.write("s.json", self.keyed_scene())
+        table = run("formats").stdout
+        rows = re.findall(r"^([a-z0-9-]+) +(\.[^-\n]*?) *(?:--.*)?$", table[table.index("export --format"):], re.M)
+        self.assertGreater(len(rows), 20)
+        every = sorted({extension for _, own in rows for extension in own.split()})
+        for name, own in rows:
+            for extension in [*random.Random(name).sample([each for each in every if each not in own.split()], 3), "", ".doc"]:
+                out = self.path("o" + extension)
+                self.bad("export", scene, "--format", name, "--out", out, says=f"must end in {' or '.join(own.split())} for --format {name}")
+                self.assertFalse(os.path.exists(out))
+        self.good("export", scene, "--format", "svg", "--out", self.path("O.SVG"))
+        self.good("export", scene, "--format", "svg", "--out", "/dev/null")
+
+    def test_still_scenes_look_the_same_at_all_times(self):
+        scene = self.write("still.json", {**self.keyed_scene(), "keyframes": []})
+        points = self.write("p.csv", "10,20\n33,7\n")
+        self.assertEqual(self.good("map", scene, "--points", points).stdout, self.good("map", scene, "--points", points, "--time", 3).stdout)
+        told = [json.loads(self.good("info", scene, "--json", *time).stdout) for time in ((), ("--time", "0"), ("--time", "1e6"))]
+        for each in told:
+            for key in ("timings", "time"):
+                each.pop(key, None)
+        self.assertEqual(told[0], told[1])
+        self.assertEqual(told[0], told[2])
+        for name in ("render", "png", "svg", "obj", "npy", "psd", "glb", "unwarp", "stmap"):
+            written = []
+            for time in ((), ("--time", "2.5")):
+                out = self.path("o." + {"render": "png", "unwarp": "png", "stmap": "exr"}.get(name, name))
+                self.good("render" if name == "render" else "export", scene, *(("--format", name) if name != "render" else ()), *time,
+                          "--out", out, "--force")
+                with open(out, "rb") as file:
+                    written.append(file.read())
+            self.assertEqual(*written, name)
+
+    def test_several_scenes_are_drawn_at_once(self):
+        keyed = self.keyed_scene()
+
+        def named(name, move):
+            scene = copy.deepcopy(keyed)
+            scene["cage"]["pose"] = [[[p[0][0] + move, p[0][1]], *p[1:]] for p in scene["cage"].get("pose", scene["cage"]["rest"])]
+            return self.write(name, scene)
+        def content(name):
+            with open(self.path(name), "rb") as file:
+                return file.read()
+        os.makedirs(self.path("in/more"))
+        os.makedirs(self.path("out"))
+        for folder in ("in", "in/more"):
+            shutil.copy(self.path("red.png"), self.path(folder))
+        scenes = [named("in/a.json", 1), named("in/b c.json", 4), named("in/more/d.v2.json", 9)]
+        alone = []
+        for scene in scenes:
+            self.good("render", scene, "--out", self.path("alone.png"), "--force")
+            alone.append(content("alone.png"))
+        self.assertEqual(len(set(alone)), 3)
+        for out in (self.path("out"), self.path("out/*.png")):
+            self.good("render", *scenes, "--out", out)
+            self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.png", "b c.png", "d.v2.png"])
+            self.assertEqual([content("out/" + name) for name in ("a.png", "b c.png", "d.v2.png")], alone)
+            shutil.rmtree(self.path("out"))
+            os.mkdir(self.path("out"))
+        self.good("render", scenes[0], "--out", self.path("out"))  # where a pattern of the shell matches one
+        self.good("render", *scenes, "--frames", "1..2", "--out", self.path("out/*-small.webp"), "--scale", 0.5)
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["a-small-0001.webp", "a-small-0002.webp", "a.png", "b c-small-0001.webp",
+                                                                "b c-small-0002.webp", "d.v2-small-0001.webp", "d.v2-small-0002.webp"])
+        # Names that would be used twice, and what has no name.
+        self.bad("render", *scenes, "--out", self.path("x.png"), says="pictures/*.png")
+        self.bad("render", scenes[0], scenes[0], "--out", self.path("*.png"), says="would both be drawn")
+        self.bad("render", scenes[0], "-", "--out", self.path("*.png"), says="standard input")
+        self.bad("render", *scenes, "--print-rect", "--out", self.path("*.png"), says="single scene")
+        self.assertEqual([name for name in os.listdir(self.folder) if name.endswith(".png") and name not in ("alone.png", "red.png")], [])
+        # The others are drawn if one fails.
+        self.write("in/b c.json", "{")
+        shutil.rmtree(self.path("out"))
+        os.mkdir(self.path("out"))
+        said = self.bad("render", *scenes, self.path("none.json"), "--out", self.path("out"), says="2 of 4 scenes were not drawn").stderr
+        self.assertIn("b c.json: ", said)
+        self.assertIn("none.json: ", said)
+        self.assertEqual([content("out/" + name) for name in ("a.png", "d.v2.png")], [alone[0], alone[2]])
+
     def test_films_by_ffmpeg_are_whole_or_not_there(self):
         path = self.write("s.json", self.keyed_scene())
         folder = self.path("bin")
@@ -497,7 +578,7 @@ class CommandLine(Case):
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.startswith("step")), ["step-0001.png", "step-0004.png"])
         self.bad("export", path, "--format", "gif", "--frames", "0..4:2", "--out", self.path("o.gif"), says="has a step")
         still = self.write("still.json", {**scene, "keyframes": []})
-        self.bad("render", still, "--time", 1, "--out", out, says="no keyframes")
+        self.bad("render", still, "--frames", "0", "--out", out, says="no keyframes")
         self.bad("export", still, "--format", "gif", "--out", self.path("o.gif"), says="no keyframes")
         self.bad("render", self.write("two.json", {**scene, "keyframes": scene["keyframes"][:1] * 2}),
                  "--time", 0, "--out", out, says="without duplicates")
@@ -587,7 +668,7 @@ class CommandLine(Case):
         self.bad("map", scene, "--points", self.path("none.csv"), says="no such file")
         self.bad("map", scene, says="--points")
         self.bad("coordinates", scene, "--points", self.write("q.csv", "1,2\n"), "--order", -1, "--out", self.path("m"), says="order")
-        self.bad("render", scene, "--out", self.folder, says="directory")
+        self.bad("info", scene, "--time", -1, says="--time")
         self.bad("render", scene, "--out", self.path("no/where.png"), says="cannot write", status=1)
         self.bad("render", scene, "--out", self.path("x.png"), "--view", "xray", says="angle")
         for scale in ("0", "-1", "1e9", "nan"):

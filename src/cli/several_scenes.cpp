@@ -1,0 +1,74 @@
+// The command render for several scenes, whose pictures are named after them.
+#include <cstdio>
+#include <map>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
+#include "core/error.h"
+#include "system/text.h"
+
+namespace holomorph {
+namespace {
+
+/// Where the picture of a scene goes if `out` is a folder, or a name in which * stands for the name
+/// of the scene.
+Path picture_path(const Path& out, const Path& scene) {
+  std::error_code ignored;
+  const Path pattern = std::filesystem::is_directory(out, ignored) ? out / "*.png" : out;
+  std::string name = pattern.filename().string();
+  const size_t star = name.find('*');
+  if (star == std::string::npos) return out;
+  if (is_standard(scene))
+    throw Error(ErrorKind::bad_input,
+                "standard input has no name that could replace the * of " + pattern.string());
+  return Path(pattern).replace_filename(name.replace(star, 1, scene.stem().string()));
+}
+
+/// Throws Error if pictures would replace each other.
+void check_names(const RenderScenesCommand& command) {
+  std::map<Path, Path> scenes;  // by picture
+  for (const Path& scene : command.scenes) {
+    const auto [other, is_new] = scenes.emplace(picture_path(command.out, scene), scene);
+    if (is_new) continue;
+    if (other->first == command.out)
+      throw Error(ErrorKind::bad_input,
+                  "--out: several scenes need a folder, or a name with * in place of the name of "
+                  "each scene, such as 'pictures/*.png'");
+    throw Error(ErrorKind::bad_input, other->second.string() + " and " + scene.string() +
+                                          " would both be drawn to " + other->first.string());
+  }
+}
+
+}  // namespace
+
+void run(const RenderScenesCommand& command) {
+  check_names(command);
+  RenderCommand each = command;
+  const bool is_alone = command.scenes.size() == 1;
+  if (command.print_rectangle && !is_alone)
+    throw Error(ErrorKind::bad_input, "--print-rect is for a single scene");
+  size_t failures = 0;
+  ErrorKind worst = ErrorKind::bad_input;
+  for (const Path& scene : command.scenes) {
+    each.scene = scene;
+    each.out = picture_path(command.out, scene);
+    try {
+      run(each);
+    } catch (const Error& error) {
+      if (is_alone || is_interrupted()) throw;
+      ++failures;
+      if (error.kind() != ErrorKind::bad_input) worst = error.kind();
+      const std::string name = scene.string(), what = error.what();
+      const bool says_name = what.starts_with(name);
+      std::fprintf(stderr, "holomorph: %s\n",
+                   printable(says_name ? what : name + ": " + what).c_str());
+    }
+    stop_if_interrupted();
+  }
+  if (failures > 0)
+    throw Error(worst, std::to_string(failures) + " of " + std::to_string(command.scenes.size()) +
+                           " scenes were not drawn");
+}
+
+}  // namespace holomorph
