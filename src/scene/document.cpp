@@ -145,19 +145,26 @@ std::vector<Layer> Document::layers_of_file(const std::string& file) const {
 }
 
 void Document::update_layers(const LayerUpdate& update) {
-  std::map<const Layer*, SharedLayer> known;  // steps of the history share most of their layers
-  const auto updated_layer = [&](const SharedLayer& before) {
+  // Steps of the history share most of their layers.
+  std::map<std::pair<const Layer*, PixelPosition>, SharedLayer> known;
+  const auto updated_layer = [&](const SharedLayer& before, const PixelPosition& carried) {
     if (!before->image || before->image->file != update.file) return before;
-    if (const auto found = known.find(&*before); found != known.end()) return found->second;
+    const std::pair key(&*before, carried);
+    if (const auto found = known.find(key); found != known.end()) return found->second;
     Layer layer = *before;
-    update.apply(layer);
+    update.apply(layer, carried);
     if (const Picture* picture = pictures_.find(*layer.image); picture && picture->mark)
       layer.image = described(*layer.image, *picture);
-    return known.emplace(&*before, SharedLayer(std::move(layer))).first->second;
+    return known.emplace(key, SharedLayer(std::move(layer))).first->second;
   };
   const auto updated = [&](const Scene& scene) {
+    const auto with_id = [&](int id) {
+      const auto found = std::ranges::find(scene.layers, id, [](const auto& l) { return l->id; });
+      return found == scene.layers.end() ? nullptr : &**found;
+    };
     Scene result = scene;
-    for (SharedLayer& layer : result.layers) layer = updated_layer(layer);
+    for (SharedLayer& layer : result.layers)
+      layer = updated_layer(layer, update.carried(*layer, with_id));
     return result;
   };
   history_.revise_all(updated);

@@ -196,7 +196,13 @@ std::set<std::string> update_layers(std::vector<Layer>& layers, const Path& scen
       LayerUpdate update = layer_update(layers, name, files, choices);
       if (!update.unclear.empty() && !options.pictures_may_be_missing)
         throw Error(ErrorKind::bad_input, question_of(update));
-      for (Layer& layer : layers) update.apply(layer);
+      const auto with_id = [&](int id) {
+        const auto found = std::ranges::find(layers, id, &Layer::id);
+        return found == layers.end() ? nullptr : &*found;
+      };
+      std::vector<PixelPosition> carried;
+      for (const Layer& layer : layers) carried.push_back(update.carried(layer, with_id));
+      for (size_t i = 0; i < layers.size(); ++i) update.apply(layers[i], carried[i]);
       if (!update.unclear.empty() && loaded.warning.empty()) loaded.warning = unclear_text(update);
       loaded.updates.push_back(std::move(update));
     } catch (const Error& error) {

@@ -117,6 +117,62 @@ class Updates(Case):
         difference[(shown[..., 3] == 0) & (wanted[..., 3] == 0)] = 0
         self.assertLessEqual(difference.max(), 1, seed)
 
+    def test_attached_layers_move_as_in_the_file(self):
+        """Layers that are attached to each other are moved in the file: the scene looks like the file."""
+        for kind in ("ora", "ids.psd", "plain.psd"):
+            for seed in (*few_or_many(range(3), range(12)), seed_of("attached layers " + kind, 60)):
+                with self.subTest(kind=kind, seed=seed):
+                    rng = random.Random(seed)
+                    art = Art(rng, rng.randint(3, 6))
+                    self.start(art, kind)
+                    scene = self.scene()
+                    for i, layer in enumerate(scene["layers"]):
+                        layer["id"] = i + 1
+                        shown = art.layers[i]
+                        rows, columns = shown["pixels"].shape[:2]
+                        left, bottom = shown["x"], art.height - shown["y"] - rows
+                        corners = [[left, bottom], [left + columns, bottom], [left + columns, bottom + rows], [left, bottom + rows]]
+                        layer["cage"] = {"rest": [[corner] for corner in corners]}
+                        if i > 0 and rng.random() < 0.7:
+                            layer["attachment"] = {"layer": rng.randint(1, i), "place": [left + columns / 2, bottom + rows / 2]}
+                    self.write("s.json", scene)
+                    for layer in art.layers:
+                        if rng.random() < 0.6:
+                            layer["x"] += rng.randrange(-20, 20)
+                            layer["y"] += rng.randrange(-20, 20)
+                    self.save(art, kind)
+                    self.good("update", self.path("s.json"))
+                    self.assert_same(self.drawn(self.BOX), self.composed(art, art.layers, self.BOX, (0, 0)), seed)
+
+    def test_new_layers_lie_where_the_canvas_does(self):
+        """Layers of the scene were placed by hand, or have moved in the file, when the canvas grows and gets a layer."""
+        for kind in ("ora", "ids.psd", "plain.psd"):
+            for placed in ("nothing", "one", "scaled", "moved in the file"):
+                with self.subTest(kind=kind, placed=placed):
+                    art = Art(random.Random(placed), 2)
+                    self.start(art, kind)
+                    scene = self.scene()
+                    for layer in scene["layers"][:1 if placed == "one" else 2]:
+                        if placed in ("one", "scaled"):
+                            layer["placement"] = {"factor": [1, 0], "shift": [5.5, 0]} if placed == "one" else {"factor": [2, 0], "shift": [0, 0]}
+                    self.write("s.json", scene)
+                    if placed == "moved in the file":
+                        art.layers[0]["x"] += 7
+                        self.save(art, kind)
+                        self.good("update", self.path("s.json"))
+                    moved = art.grow()
+                    self.save(art, kind)
+                    self.good("update", self.path("s.json"))
+                    art.add()
+                    self.save(art, kind)
+                    self.good("update", self.path("s.json"), "--add")
+                    scene = self.scene()
+                    self.assertEqual(len(scene["layers"]), 3)
+                    for layer in scene["layers"][:2]:
+                        layer["visible"] = False
+                    self.write("s.json", scene)
+                    self.assert_same(self.drawn(self.BOX), self.composed(art, art.layers[2:], self.BOX, moved), placed)
+
     def test_layers_are_found_after_any_change(self):
         """Layers are added, removed, moved, renamed, repainted and put in another order, and the canvas grows or is cropped."""
         for kind in WRITERS:
