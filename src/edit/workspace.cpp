@@ -436,7 +436,7 @@ void Workspace::open(Document opened) {
   has_edits_ = true;
   maps.clear();
   selection.clear();
-  copied_keys.clear();
+  copied_keys = {};
   mergeable_selection_.reset();
   playback = {};
   shown = Shown(document);

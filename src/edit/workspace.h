@@ -108,7 +108,7 @@ struct Workspace {
   ActionTable actions;
   Playback playback;
   std::optional<Pose> copied;  ///< set by Copy pose
-  KeySelection copied_keys;    ///< set by Copy pose if keyframes are selected; otherwise empty
+  CopiedKeys copied_keys;      ///< set by Copy pose if keyframes are selected; otherwise empty
   Request request = Request::none;
   /// Runs a long task on another thread, then calls `then` on this thread. Set by the window.
   /// `quietly`: without a dialog; all input waits for the task, and Escape ends it.

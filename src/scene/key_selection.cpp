@@ -28,6 +28,19 @@ Scene with_each_layer(Scene scene, const KeySelection& keys, Edit edit) {
   return scene;
 }
 
+double moved_time(const Scene& scene, const TimeMap& map, double time, bool to_frames) {
+  const double to = map(time), rate = scene.animation.frames_per_second;
+  return to_frames ? std::round(to * rate) / rate : to;
+}
+
+bool is_allowed_time(double time) {
+  return time >= 0 && time <= kMaxTime;
+}
+
+bool is_same_time(const Keyframe& a, const Keyframe& b) {
+  return std::abs(a.time - b.time) < kSameTime;
+}
+
 /// A keyframe in its new place.
 struct PlacedKey {
   Keyframe key;
@@ -35,16 +48,14 @@ struct PlacedKey {
   bool moved = false;
 };
 
-/// The whole turns since the key before. A moved key keeps them if it still follows the same key,
-/// and a copy if it follows a copy of that. A key that stays turns as often as before since the
-/// last other key that stays.
-int turns_of(const std::vector<PlacedKey>& placed, size_t i, const std::vector<Keyframe>& before,
-             bool copies) {
+/// The whole turns since the key before. A moved key keeps them if it still follows the same key. A
+/// key that stays turns as often as before since the last other key that stays.
+int turns_of(const std::vector<PlacedKey>& placed, size_t i, const std::vector<Keyframe>& before) {
   const PlacedKey& key = placed[i];
   if (i == 0) return key.from == 0 ? key.key.turns : 0;
   const PlacedKey& last = placed[i - 1];
   const bool follows = last.from + 1 == key.from;
-  if (key.moved) return follows && (last.moved || !copies) ? key.key.turns : 0;
+  if (key.moved) return follows ? key.key.turns : 0;
   if (follows) return key.key.turns;
   int turns = key.key.turns;
   const auto is_left = [&](size_t k) {
@@ -81,12 +92,9 @@ std::pair<double, double> span_of(const KeySelection& keys) {
 
 std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection& selected,
                                          const TimeMap& map, KeyMove how) {
+  if (how.copies) return with_keys_pasted(scene, copied_keys(scene, selected), map, how.to_frames);
   const KeySelection keys = editable_keys(scene, selected);
-  const double rate = scene.animation.frames_per_second;
-  const auto moved = [&](double time) {
-    const double to = map(time);
-    return how.to_frames ? std::round(to * rate) / rate : to;
-  };
+  const auto moved = [&](double time) { return moved_time(scene, map, time, how.to_frames); };
   bool possible = true;
   MovedKeys result;
   result.scene =
@@ -94,30 +102,91 @@ std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection&
         const std::vector<Keyframe> before = deformation.keyframes;
         std::vector<PlacedKey> placed;
         for (size_t k = 0; k < before.size(); ++k)
-          if (how.copies || !std::ranges::binary_search(chosen, k))
-            placed.push_back({before[k], k, false});
+          if (!std::ranges::binary_search(chosen, k)) placed.push_back({before[k], k, false});
         for (const size_t k : chosen) {
           PlacedKey key{before[k], k, true};
           key.key.time = moved(key.key.time);
           const auto next = std::ranges::upper_bound(
               placed, key.key.time, {}, [](const PlacedKey& other) { return other.key.time; });
           const auto meets = [&](const PlacedKey& other) {
-            return std::abs(other.key.time - key.key.time) < kSameTime;
+            return is_same_time(other.key, key.key);
           };
-          possible = possible && key.key.time >= 0 && key.key.time <= kMaxTime &&
-                     std::ranges::none_of(placed, meets);
+          possible =
+              possible && is_allowed_time(key.key.time) && std::ranges::none_of(placed, meets);
           if (!possible) return deformation;
           placed.insert(next, std::move(key));
         }
         deformation.keyframes.clear();
         for (size_t i = 0; i < placed.size(); ++i) {
           deformation.keyframes.push_back(placed[i].key);
-          deformation.keyframes.back().turns = turns_of(placed, i, before, how.copies);
+          deformation.keyframes.back().turns = turns_of(placed, i, before);
         }
         return deformation;
       });
   if (!possible) return {};
   for (const KeyId& key : keys) result.keys.insert({key.layer, moved(key.time)});
+  return result;
+}
+
+CopiedKeys copied_keys(const Scene& scene, const KeySelection& selected) {
+  const KeySelection keys = editable_keys(scene, selected);
+  CopiedKeys copied;
+  for (const SharedLayer& layer : scene.layers) {
+    bool follows = false;
+    for (const Keyframe& key : layer->deformation.keyframes) {
+      const bool chosen = keys.contains({layer->id, key.time});
+      if (chosen) {
+        copied.layers[layer->id].push_back(key);
+        if (!follows) copied.layers[layer->id].back().turns = 0;
+      }
+      follows = chosen;
+    }
+  }
+  return copied;
+}
+
+KeySelection CopiedKeys::keys() const {
+  KeySelection all;
+  for (const auto& [layer, copies] : layers)
+    for (const Keyframe& key : copies) all.insert({layer, key.time});
+  return all;
+}
+
+CopiedKeys fitting(const Scene& scene, CopiedKeys copied) {
+  std::erase_if(copied.layers, [&](const auto& entry) {
+    const auto& [id, copies] = entry;
+    const size_t i = layer_index(scene, id);
+    if (i == scene.layers.size()) return true;
+    const Layer& layer = *scene.layers[i];
+    return !layer.visible || layer.locked || !std::ranges::all_of(copies, [&](const Keyframe& key) {
+      return fits(layer.deformation, key.pose);
+    });
+  });
+  return copied;
+}
+
+std::optional<MovedKeys> with_keys_pasted(const Scene& scene, const CopiedKeys& copied,
+                                          const TimeMap& map, bool to_frames) {
+  MovedKeys result{scene, {}};
+  for (const auto& [id, copies] : copied.layers) {
+    const size_t i = layer_index(scene, id);
+    Layer layer = *scene.layers[i];
+    std::vector<Keyframe>& keys = layer.deformation.keyframes;
+    std::optional<double> last;  // the time of the copy before
+    for (Keyframe key : copies) {
+      key.time = moved_time(scene, map, key.time, to_frames);
+      const auto meets = [&](const Keyframe& other) { return is_same_time(other, key); };
+      if (!is_allowed_time(key.time) || std::ranges::any_of(keys, meets)) return {};
+      const auto next = std::ranges::upper_bound(keys, key.time, {}, &Keyframe::time);
+      // Copies turn only if no other key lies between them.
+      const bool follows = last && next != keys.begin() && std::prev(next)->time == *last;
+      if (!follows) key.turns = 0;
+      last = key.time;
+      result.keys.insert({id, key.time});
+      keys.insert(next, std::move(key));
+    }
+    result.scene = with_layer_at(std::move(result.scene), i, std::move(layer));
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <map>
 #include <set>
 
 #include "scene/keyframes.h"
@@ -29,6 +30,19 @@ KeySelection editable_keys(const Scene& scene, const KeySelection& keys);
 /// The first and last time of a selection, which must not be empty.
 std::pair<double, double> span_of(const KeySelection& keys);
 
+/// Copies of keyframes, in the order of time.
+struct CopiedKeys {
+  std::map<int, std::vector<Keyframe>> layers;  ///< by the id of their layer
+
+  bool empty() const { return layers.empty(); }
+  KeySelection keys() const;
+};
+/// Copies of the editable keyframes of a selection. They keep the whole turns between them.
+CopiedKeys copied_keys(const Scene& scene, const KeySelection& keys);
+/// Those of the copies that fit the scene: their layers exist and can be edited, and still have the
+/// cage of the poses.
+CopiedKeys fitting(const Scene& scene, CopiedKeys copied);
+
 struct MovedKeys {
   Scene scene;
   KeySelection keys;  ///< where they are now
@@ -41,6 +55,9 @@ struct KeyMove {
 /// or meet another one.
 std::optional<MovedKeys> with_keys_moved(const Scene& scene, const KeySelection& keys,
                                          const TimeMap& map, KeyMove how = {});
+/// Adds copies of keyframes that fit the scene, moved in time. None as for with_keys_moved().
+std::optional<MovedKeys> with_keys_pasted(const Scene& scene, const CopiedKeys& copied,
+                                          const TimeMap& map, bool to_frames = false);
 Scene with_keys_eased(Scene scene, const KeySelection& keys, Ease ease);
 Scene without_keys(Scene scene, const KeySelection& keys);
 /// Mirrors the poses of keyframes. Throws Error like mirrored().

@@ -268,6 +268,33 @@ TEST_CASE("Timeline: selected keyframes are copied and pasted at the current tim
   REQUIRE(w.shown.own().keyframes.size() == before + 1);
   CHECK(w.shown.own().keyframes.back().time == 4);
   CHECK(w.shown.own().keyframes.back().pose == second);
+  // The copies are as they were when they were copied, even if the original is changed or cut.
+  Deformation other = w.document.scene().deformation();
+  for (Points& segment : other.keyframes[1].pose.cage.segments) segment[0] += 17.0;
+  w.commit("Change keyframe", other, EditBase::document);
+  REQUIRE(w.shown.own().keyframes[1].pose != second);
+  w.go_to_time(6);
+  act(desk, "time.paste");
+  CHECK(w.shown.own().keyframes.back().pose == second);
+  w.shown.timeline.keys = all_keys(w.document.scene());
+  const size_t all = w.shown.timeline.keys.size();
+  const std::vector<Keyframe> cut = w.shown.own().keyframes;
+  act(desk, "time.copy");
+  act(desk, "time.delete_key");
+  CHECK(w.shown.own().keyframes.empty());
+  w.go_to_time(10);
+  REQUIRE(w.actions.named("time.paste").enabled(w));
+  act(desk, "time.paste");
+  REQUIRE(w.shown.own().keyframes.size() == all);
+  for (size_t k = 0; k < all; ++k) {
+    CHECK(w.shown.own().keyframes[k].pose == cut[k].pose);
+    CHECK(w.shown.own().keyframes[k].time == Approx(cut[k].time + 10));
+  }
+  // Copies do not fit a cage with other points.
+  act(desk, "edit.undo");
+  act(desk, "edit.undo");
+  w.commit("Insert point", inserted(w.document.scene().deformation(), 0, 0.5), EditBase::document);
+  CHECK(fitting(w.document.scene(), w.copied_keys).empty());
   // Without selected keyframes, a pose is copied again.
   w.shown.timeline.keys.clear();
   desk.update();

@@ -60,13 +60,14 @@ void delete_keys(Workspace& w, const KeySelection& keys) {
   w.commit_layers(for_keys("Delete", keys), std::move(after));
 }
 
-/// Copies keyframes to the current time, or after them if it is among them.
-void duplicate(Workspace& w, const KeySelection& keys) {
+/// Adds copied keyframes at the current time, or after them if it is among them.
+void add_copies(Workspace& w, const CopiedKeys& copies) {
+  const KeySelection keys = copies.keys();
   const auto [first, last] = span_of(keys);
   const Scene& scene = w.document.scene();
   const double frame = 1 / scene.animation.frames_per_second, time = w.shown.timeline.time;
   for (const double to : {time, std::max(last, time) + frame}) {
-    const auto copied = with_keys_moved(scene, keys, {1, first, to}, {.copies = true});
+    const auto copied = with_keys_pasted(scene, copies, {1, first, to});
     if (!copied) continue;
     if (w.commit_layers(for_keys("Copy", keys), copied->scene))
       w.shown.timeline.keys = copied->keys;
@@ -83,9 +84,8 @@ void stop_at_frame(Workspace& w) {
   w.go_to_time(time_of_frame(scene, frame_at(scene, w.shown.timeline.time) + by));
 }
 void copy(Workspace& w) {
-  w.copied_keys = editable_keys(w.document.scene(), w.shown.timeline.keys);
-  if (!w.copied_keys.empty()) {
-    const size_t count = w.copied_keys.size();
+  w.copied_keys = copied_keys(w.document.scene(), w.shown.timeline.keys);
+  if (const size_t count = w.copied_keys.keys().size(); count > 0) {
     return w.messages.say(count == 1 ? "Keyframe copied."
                                      : std::to_string(count) + " keyframes copied.");
   }
@@ -94,12 +94,12 @@ void copy(Workspace& w) {
   w.messages.say("Pose copied.");
 }
 bool can_paste(const Workspace& w) {
-  return !editable_keys(w.document.scene(), w.copied_keys).empty() ||
-         (w.copied_keys.empty() && has_copied(w));
+  return w.copied_keys.empty() ? has_copied(w)
+                               : !fitting(w.document.scene(), w.copied_keys).empty();
 }
 void paste(Workspace& w) {
-  const KeySelection keys = editable_keys(w.document.scene(), w.copied_keys);
-  if (!keys.empty()) return duplicate(w, keys);
+  if (const CopiedKeys keys = fitting(w.document.scene(), w.copied_keys); !keys.empty())
+    return add_copies(w, keys);
   w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied));
 }
 
@@ -194,7 +194,8 @@ std::vector<Action> time_actions() {
           .icon = icon_named("duplicate"),
           .needs = "Needs a selected keyframe, or one at the current time",
           .enabled = has_chosen_keys,
-          .run = [](Workspace& w) { duplicate(w, chosen_keys(w)); },
+          .run =
+              [](Workspace& w) { add_copies(w, copied_keys(w.document.scene(), chosen_keys(w))); },
       },
       {
           .id = "time.mirror_keys",
@@ -272,7 +273,7 @@ std::vector<Action> time_actions() {
           .label = "Paste pose",
           .hint = "Paste the pose, or put the copied keyframes at the current time",
           .keys = {{'V', kCtrl}},
-          .needs = "Needs a copied pose or keyframe",
+          .needs = "Needs a copied pose or keyframe, of the same cage and pins",
           .enabled = can_paste,
           .run = paste,
       },
