@@ -174,13 +174,26 @@ class LayerMesh {
   std::optional<Anchor> anchor_;
 };
 
+/// A picture with transparent pixels around it.
+Image with_border(const Image& picture) {
+  Image larger(picture.width + 2, picture.height + 2);
+  larger.left = picture.left - 1;
+  larger.bottom = picture.bottom - 1;
+  for (int r = 0; r < picture.height; ++r)
+    std::copy_n(picture.at(0, r), 4 * picture.width, larger.at(1, r + 1));
+  return larger;
+}
+
 /// The picture with the colors of its edge carried on into the transparent pixels, which engines
-/// mix into the edge.
-Image texture_of(const Image& picture) {
+/// mix into the edge. Beyond a texture, engines repeat its outermost pixels, so these are
+/// transparent if the mesh is larger than the picture.
+Image texture_of(const Image& picture, const Points& mesh) {
   constexpr double kReach = 8;  // pixels
-  Image texture = picture;
+  const Box box = picture.box();
+  const bool is_inside = std::ranges::all_of(mesh, [&](Complex z) { return box.contains(z); });
+  Image texture = is_inside ? picture : with_border(picture);
   std::vector<bool> filled;
-  for (size_t i = 3; i < picture.pixels.size(); i += 4) filled.push_back(picture.pixels[i] > 0);
+  for (size_t i = 3; i < texture.pixels.size(); i += 4) filled.push_back(texture.pixels[i] > 0);
   bleed(texture, filled, kReach, [](int, int) { return false; });
   return texture;
 }
@@ -200,7 +213,7 @@ class Exporter {
       MovingMesh mesh = layer(i).mesh();
       if (mesh.rest.empty()) continue;
       mesh.name = title_of_layer(scene, i);
-      if (const Image* own = picture_of_layer(i)) mesh.texture = texture_of(*own);
+      if (const Image* own = picture_of_layer(i)) mesh.texture = texture_of(*own, mesh.rest);
       meshes_.push_back(std::move(mesh));
       exported_.push_back(i);
     }

@@ -190,6 +190,21 @@ class Imports(Case):
             frames[0].save(self.path("b." + kind))
             self.assertNotIn("first", self.good("new", self.path("b." + kind), "--out", self.path("b.json"), "--force").stderr)
 
+    def test_a_group_of_openraster_that_blends_alone_is_said(self):
+        """It matters if there is something below it."""
+        data = io.BytesIO()
+        Image.new("RGBA", (4, 4), (9, 9, 9, 255)).save(data, "PNG")
+        shade, plain = '<layer name="shade" src="a.png" composite-op="svg:multiply"/>', '<layer name="ground" src="a.png"/>'
+        for attributes, inside, below, lost in (('isolation="isolate"', shade, plain, True), ('opacity="0.5"', shade, plain, True),
+                                                ('isolation="isolate"', shade, "", False), ('isolation="isolate"', plain, plain, False),
+                                                ("", shade, plain, False), ('isolation="auto"', shade, plain, False)):
+            with zipfile.ZipFile(self.path("g.ora"), "w") as archive:
+                archive.writestr("mimetype", "image/openraster")
+                archive.writestr("stack.xml", f'<image w="4" h="4"><stack><stack name="group" {attributes}>{inside}</stack>{below}</stack></image>')
+                archive.writestr("a.png", data.getvalue())
+            said = self.good("new", self.path("g.ora"), "--out", self.path("g.json"), "--force").stderr
+            self.assertEqual("group: left out: the blending of the group" in said, lost, (attributes, inside, below, said))
+
     def test_vector_layers_of_openraster_are_drawn_and_others_are_named(self):
         picture = io.BytesIO()
         Image.new("RGBA", (40, 30), (0, 0, 200, 255)).save(picture, "png")

@@ -391,6 +391,39 @@ class Meshes(Case):
                     self.assertAlmostEqual(time, k / rate, places=6)
                     self.assertLess(numpy.abs(frame * [1, -1] - self.positions(scene, "--time", k / rate)).max(), 1e-4)
 
+    def test_nothing_is_smeared_where_the_mesh_is_larger_than_the_picture(self):
+        """Engines repeat the outermost pixels of a texture."""
+        pixels = numpy.random.default_rng(3).integers(0, 256, (40, 60, 4)).astype(numpy.uint8)
+        pixels[..., 3] = 255
+        Image.fromarray(pixels, "RGBA").save(self.path("photo.png"))
+        for margin, border in ((6, 1), (0, 0)):
+            cage = [[[-margin, -margin]], [[60 + margin, -margin]], [[60 + margin, 40 + margin]], [[-margin, 40 + margin]]]
+            scene = self.write("loose.json", {"format": "holomorph", "version": 1, "image": {"file": "photo.png"}, "cage": {"rest": cage}})
+            self.good("export", scene, "--format", "godot", "--full-mesh", "--out", self.path("l.tscn"), "--force")
+            mesh = next(node for node in GodotScene(self.content("l.tscn").decode(), 4).nodes.values() if "polygon" in node)
+            texture = numpy.asarray(Image.open(self.path(mesh["texture"]["path"])).convert("RGBA"))
+            self.assertEqual(texture.shape, (40 + 2 * border, 60 + 2 * border, 4))
+            inner = texture[border:40 + border, border:60 + border]
+            self.assertTrue((inner == pixels).all())
+            self.assertEqual(texture[..., 3].astype(int).sum(), 255 * 40 * 60)
+            self.assertLess(numpy.abs(mesh["uv"] - border - (mesh["polygon"] + [0, 40])).max(), 1e-4)  # nothing is bent
+
+    def test_names_of_layers_can_be_names_of_files_and_nodes(self):
+        names = ["Arm", "arm", "AnimationPlayer", "ß" * 300, "ü" + "ß" * 300, "", "a/b:c", "a/b:c"]
+        scene = json.loads(self.content(self.moving(random.Random(1), 1)))
+        scene["layers"] = [{**scene["layers"][0], "name": name} for name in names]
+        path = self.write("names.json", scene)
+        for kind, out in (("godot", "n.tscn"), ("godot3", "n.tscn"), ("spine", "n.json")):
+            self.good("export", path, "--format", kind, "--time", "0", "--out", self.path(out), "--force")
+            pictures = [name for name in os.listdir(self.folder) if name.startswith("n-")]
+            self.assertEqual(len({name.lower() for name in pictures}), len(names), pictures)
+            for name in pictures:
+                os.remove(self.path(name))
+            if kind != "spine":
+                meshes = [node for node in GodotScene(self.content(out).decode(), 3 if kind == "godot3" else 4).nodes if node != "Holomorph"]
+                self.assertEqual(len(meshes), len(names))
+                self.assertNotIn("AnimationPlayer", meshes)
+
     def test_godot_versions_differ_in_words_alone(self):
         scene = self.moving(random.Random(5), 3)
         texts = []

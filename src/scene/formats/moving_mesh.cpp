@@ -4,7 +4,24 @@
 #include <cctype>
 #include <set>
 
+#include "system/text.h"
+
 namespace holomorph {
+
+namespace {
+
+constexpr size_t kLongestName = 100;  // bytes; names of files have at most 255
+
+/// The last characters of a text. The end of a layer's name tells more than the names of its
+/// groups.
+std::string end_of_text(const std::string& text, size_t most) {
+  if (text.size() <= most) return text;
+  size_t from = text.size() - most;
+  while (from < text.size() && (static_cast<unsigned char>(text[from]) & 0xc0) == 0x80) ++from;
+  return text.substr(from);
+}
+
+}  // namespace
 
 bool moves(const MovingMesh& mesh) {
   return std::ranges::any_of(mesh.frames,
@@ -18,7 +35,8 @@ Complex texture_coordinate(const MovingMesh& mesh, Complex rest) {
 
 std::vector<std::string> unique_names(const MovingMeshes& moving) {
   std::vector<std::string> names;
-  std::set<std::string> used;
+  // Some systems do not distinguish names by case. Scenes of Godot have a node for the animation.
+  std::set<std::string> used{"animationplayer"};
   for (const MovingMesh& mesh : moving.meshes) {
     std::string name;
     for (const char c : mesh.name) {
@@ -27,8 +45,10 @@ std::vector<std::string> unique_names(const MovingMeshes& moving) {
       name += is_plain ? c : '_';
     }
     if (name.empty()) name = "layer";
+    name = end_of_text(name, kLongestName);
     std::string unique = name;
-    for (int k = 2; !used.insert(unique).second; ++k) unique = name + "-" + std::to_string(k);
+    for (int k = 2; !used.insert(lower_case(unique)).second; ++k)
+      unique = name + "-" + std::to_string(k);
     names.push_back(unique);
   }
   return names;

@@ -55,7 +55,8 @@ std::string godot_of(const MovingMeshes& moving, const std::vector<std::string>&
 /// A skeleton for Spine 4.1: a slot with a mesh for each layer, and timelines that deform them,
 /// with textures from these files. Positions in pixels, y up.
 std::string spine_of(const MovingMeshes& moving, const std::vector<std::string>& textures);
-/// Names of the meshes that differ from each other and can be file names.
+/// Names of the meshes that differ from each other, also if case does not count, and can be file
+/// names.
 std::vector<std::string> unique_names(const MovingMeshes& moving);
 
 }  // namespace holomorph

@@ -90,6 +90,15 @@ int offset(const pugi::xml_node& node, const char* name) {
   return std::clamp(node.attribute(name).as_int(), -kFarthest, kFarthest);
 }
 
+constexpr const char* kNormalMode = "svg:src-over";
+
+/// Whether the layers of a group blend with each other alone.
+bool is_isolated(const pugi::xml_node& group) {
+  return std::string(group.attribute("isolation").as_string()) == "isolate" ||
+         group.attribute("opacity").as_double(1) < 1 ||
+         std::string(group.attribute("composite-op").as_string(kNormalMode)) != kNormalMode;
+}
+
 void collect(const pugi::xml_node& group, const Placed& inherited, int depth, Stack& stack) {
   if (depth > kDeepestGroup) {
     stack.report.add(inherited.layer.name,
@@ -102,7 +111,7 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
         (here.layer.name.empty() ? "" : "/") + std::string(node.attribute("name").as_string());
     here.layer.visible = inherited.layer.visible &&
                          std::string(node.attribute("visibility").as_string()) != "hidden";
-    const std::string mode = node.attribute("composite-op").as_string("svg:src-over");
+    const std::string mode = node.attribute("composite-op").as_string(kNormalMode);
     const auto known = std::ranges::find(kModes, mode, &BlendingMode::name);
     const bool is_group = std::string(node.name()) == "stack";
     if (known == std::end(kModes) || (is_group && known->blending != Blending::normal))
@@ -112,6 +121,14 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
     here.x = std::clamp(here.x + offset(node, "x"), -kFarthest, kFarthest);
     here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
     here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
+    if (is_group && is_isolated(node)) {
+      // It matters if the group lies above something with which its layers would blend.
+      const bool blends = std::ranges::any_of(node.children(), [](const pugi::xml_node& child) {
+        return std::string(child.attribute("composite-op").as_string(kNormalMode)) != kNormalMode;
+      });
+      if (blends && node.next_sibling())
+        stack.report.add(here.layer.name, "left out: the blending of the group");
+    }
     if (is_group) collect(node, here, depth + 1, stack);
     if (is_group || node.type() != pugi::node_element) continue;
     here.layer.entry = node.attribute("src").as_string();
