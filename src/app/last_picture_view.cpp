@@ -11,6 +11,8 @@
 #include "raster/raster.h"
 #include "scene/attachments.h"
 #include "scene/fringe.h"
+#include "scene/layers.h"
+#include "scene/original.h"
 
 namespace holomorph {
 namespace {
@@ -135,10 +137,15 @@ void LastPictureView::keep(const Workspace& workspace) {
   std::vector<LayerSnapshot> layers;
   const Scene& scene = workspace.document.scene();
   if (scene.background.fill == Background::Fill::original)
-    for (const SharedLayer& layer : scene.layers)
-      if (const auto picture = workspace.document.pictures().shared(*layer);
-          picture && layer->visible)
-        layers.push_back({nullptr, {}, picture, {}, {}});
+    for (size_t i = 0; i < scene.layers.size(); ++i) {
+      const Layer& layer = *scene.layers[i];
+      const auto picture = workspace.document.pictures().shared(layer);
+      if (!picture || !is_shown(scene, i) || clip_base(scene, i)) continue;
+      const LiveMap& map = workspace.maps.of(layer.id);
+      if (!map.has_map() ||
+          !moves_as_whole(layer.deformation, *picture, *map.drawn(), as_span(map.map().f)))
+        layers.push_back({nullptr, {}, picture, resting_placement(scene, i), ink_of(scene, i)});
+    }
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     const auto picture = workspace.document.pictures().shared(layer);

@@ -8,6 +8,7 @@
 #include "raster/compose.h"
 #include "raster/layer_drawing.h"
 #include "scene/layers.h"
+#include "scene/original.h"
 
 namespace holomorph {
 namespace {
@@ -71,15 +72,19 @@ class LayerDrawer {
       return all;
     }
     for (size_t i = 0; i < scene_.layers.size(); ++i) {
-      if (!maker_.draws(i)) continue;
+      const PictureMaker::Original kind = maker_.original_of(i, options_);
+      if (kind == PictureMaker::Original::none) continue;
       const auto text = drawings_.drawing(*scene_.layers[i]);
       if (text)
-        all.push_back(of_drawing(i, *text, "original-", false));
+        all.push_back(of_drawing(i, *text, "original-", kind == PictureMaker::Original::posed));
       else if (const auto pixels = maker_.original(i, options_))
         all.push_back(on_canvas(*pixels, canvas_, options_.scale, ""));
       else
         continue;
       all.back().name = "Original of " + title_of_layer(scene_, i);
+      all.back().opacity = scene_.layers[i]->opacity;
+      all.back().blending = scene_.layers[i]->blending;
+      all.back().clipped = clip_base(scene_, i).has_value();
     }
     return all;
   }
@@ -111,6 +116,7 @@ class LayerDrawer {
                                     options_.time, place, losses, keep_going_);
       for (const std::string& loss : losses) losses_.push_back(drawn.name + ": " + loss);
     } else {
+      place.to_canvas = composed(to_canvas, resting_placement(scene_, i));
       drawn.drawing = placed_drawing(source, place, losses);
     }
     return drawn;

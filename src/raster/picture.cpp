@@ -14,6 +14,7 @@
 #include "scene/keyframes.h"
 #include "scene/layers.h"
 #include "scene/motion.h"
+#include "scene/original.h"
 
 namespace holomorph {
 
@@ -102,9 +103,19 @@ class PictureMaker::LayerMaker {
   const Box& page() const { return page_; }
 
   /// The undeformed picture.
-  RasterResult original(const PictureOptions& options, double top) {
-    show_frame(options.time);
-    return rasterized(job_of(options, top));
+  RasterResult original(const Frame& frame, const Similarity& placement) {
+    show_frame(frame.options.time);
+    RasterJob job = job_of(frame.options, frame.top);
+    job.stage = frame.stage;
+    job.placement = placement;
+    return rasterized(job);
+  }
+  /// Whether the picture is moved as a whole, and leaves no gaps.
+  bool moves_as_whole(const std::optional<double>& time) {
+    if (!deformation_.has_cage()) return true;
+    if (is_resized()) return false;
+    const VectorXc& f = positions_at(time);
+    return holomorph::moves_as_whole(deformation_, *source_, *prepared_->mesh, as_span(f));
   }
 
   /// How the layer moves what is attached to it.
@@ -285,17 +296,37 @@ std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOpti
   return layers_[number]->picture(frame, placement(number, options.time));
 }
 
-std::optional<RasterResult> PictureMaker::original(size_t number,
-                                                   const PictureOptions& options) const {
-  if (!layers_[number]->source()) return {};
-  const Frame frame = frame_of(options);
-  return layers_[number]->original(frame.options, frame.top);
+PictureMaker::Original PictureMaker::original_of(size_t number, const PictureOptions& options) {
+  const auto moves = [&](size_t i) {
+    return layers_[i]->moves_as_whole(options.time) &&
+           rests_at(resting_placement(scene_, i), placement(i, options.time),
+                    *layers_[i]->source());
+  };
+  const auto takes_part = [&](size_t i) { return draws(i) && layers_[i]->source(); };
+  if (!takes_part(number)) return Original::none;
+  if (!moves(number)) return Original::undeformed;
+  const std::vector<size_t> clipped = clipped_to(scene_, number);
+  return std::ranges::any_of(clipped, [&](size_t i) { return takes_part(i) && !moves(i); })
+             ? Original::posed
+             : Original::none;
 }
 
-std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) const {
+std::optional<RasterResult> PictureMaker::original(size_t number, const PictureOptions& options) {
+  switch (original_of(number, options)) {
+    case Original::none:
+      return {};
+    case Original::posed:
+      return layer(number, options);
+    case Original::undeformed:
+      break;
+  }
+  return layers_[number]->original(frame_of(options), resting_placement(scene_, number));
+}
+
+std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) {
   Composition all(options.scale);
   for (size_t i = 0; i < layers_.size(); ++i)
-    if (auto drawn = draws(i) ? original(i, options) : std::nullopt) all.add(std::move(*drawn));
+    if (auto drawn = original(i, options)) all.add(std::move(*drawn), ink_of(scene_, i));
   return all.empty() ? std::nullopt : std::optional(std::move(all).result());
 }
 

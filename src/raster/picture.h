@@ -45,10 +45,17 @@ class PictureMaker {
   /// Shows another picture, of any size, in the rectangle of the edited layer's picture, and stops
   /// its film. It must stay alive until the next call.
   void show(const Image& picture);
-  /// The undeformed picture of one layer; none if it has no picture.
-  std::optional<RasterResult> original(size_t number, const PictureOptions& options) const;
-  /// The undeformed pictures of the visible layers; none if there are none.
-  std::optional<RasterResult> originals(const PictureOptions& options) const;
+  /// How a layer takes part in the background that shows the undeformed pictures.
+  enum class Original {
+    none,   ///< it has no picture, or moves as a whole
+    posed,  ///< it moves as a whole, but something that is clipped to it does not
+    undeformed,
+  };
+  Original original_of(size_t number, const PictureOptions& options);
+  /// One layer of this background alone; none if it takes no part.
+  std::optional<RasterResult> original(size_t number, const PictureOptions& options);
+  /// The whole background; none if no layer takes part.
+  std::optional<RasterResult> originals(const PictureOptions& options);
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
   /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
   /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between

@@ -121,6 +121,35 @@ class EditorWindowTest(WindowCase):
                         self.assertLessEqual(difference, 1, (mode, opacity, colors, x, shot[py, px], exported[200 - y, x]))
 
     @real
+    def test_originals_look_like_the_export(self):
+        """The original of a bent layer lies where the layer was placed; a box that was moved has none."""
+        box = [[0, 0], [80, 0], [80, 60], [0, 60]]
+        rest = [[p] for p in box]
+        layers = [{"image": {"file": "a.png"}, "placement": {"factor": [0, 1], "shift": [90, 110]},
+                   "cage": {"rest": rest, "pose": [[[x + 0.3 * y, y - 90]] for x, y in box]}},
+                  {"image": {"file": "b.png"}, "cage": {"rest": rest, "pose": [[[x - 60, y + 40]] for x, y in box]}}]
+        self.plain("a.png", (60, 200, 90), (80, 60))
+        self.plain("b.png", (40, 90, 220), (80, 60))
+        scene, out = os.path.join(self.work, "originals.json"), os.path.join(self.work, "originals.png")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 2, "background": "original", "layers": layers}, file)
+        subprocess.run([PROGRAM, "render", scene, "--rect=-100,0,400,200", "--out", out, "--force"], check=True, capture_output=True)
+        exported = numpy.asarray(Image.open(out).convert("RGBA")).astype(int)
+        with Editor([scene]) as editor:
+            editor.wait(lambda s: s["layers"] == 2 and s["pictured"], "the scene")
+            editor.wait(lambda s: not s["moving"], "an interface at rest")
+            editor.pause(0.5)
+            shot = self.screenshot(editor, "originals").astype(int)
+            for x, y, color in ((60, 150, (60, 200, 90)), (150, 150, (60, 200, 90)), (-20, 70, (40, 90, 220)), (60, 50, None)):
+                px, py = editor.pixel(x, y)
+                if color:
+                    self.assertEqual(tuple(exported[200 - y, 100 + x]), (*color, 255), (x, y))
+                    self.assertLessEqual(numpy.abs(shot[py, px] - color).max(), 1, (x, y, shot[py, px]))
+                else:
+                    self.assertEqual(exported[200 - y, 100 + x, 3], 0)
+                    self.assertLess(numpy.ptp(shot[py, px]), 30, "the page")
+
+    @real
     def test_clipped_layers_look_like_the_export(self):
         seed = seed_of("clipped layers")
         rng = numpy.random.default_rng(seed)

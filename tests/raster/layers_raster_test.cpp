@@ -75,6 +75,14 @@ Scene moved(Scene scene, Complex by) {
   return with_deformation(std::move(scene), std::move(deformation));
 }
 
+/// Bends the edited layer.
+Scene sheared(Scene scene) {
+  Deformation deformation = scene.deformation();
+  for (Points& segment : deformation.pose.segments)
+    for (Complex& z : segment) z += 0.1 * z.imag();
+  return with_deformation(std::move(scene), std::move(deformation));
+}
+
 }  // namespace
 
 TEST_CASE("The upper layer covers the lower one in its own rectangle, and nothing else changes") {
@@ -130,15 +138,83 @@ TEST_CASE("The background shows through where no layer is") {
   CHECK(pixel_at(two.drawn().image, 0, 0) == Pixel{9, 8, 7, 255});
   CHECK(pixel_at(two.drawn().image, 69, 0) == kBlue);
   two.scene.background.fill = Background::Fill::original;
-  CHECK(pixel_at(two.drawn().image, 0, 0) == kBlue);  // the undeformed picture
-  CHECK(pixel_at(two.drawn().image, 35, 0) == kNothing);
+  two.scene = sheared(two.scene);
+  const auto in_the_middle = [](const Image& image, int column) {
+    return pixel_at(image, column, image.height / 2);
+  };
+  CHECK(in_the_middle(two.drawn().image, 0) == kBlue);  // the undeformed picture
+  CHECK(in_the_middle(two.drawn().image, 35) == kNothing);
   // The same holds in a scene with one layer.
-  Scene alone = moved(scene_of(with_cage({}, shapes::rectangle(30, 20))), {40, 0});
+  Scene alone = sheared(moved(scene_of(with_cage({}, shapes::rectangle(30, 20))), {40, 0}));
   alone.background = {Background::Fill::original};
   const Image both = picture_of(alone, &two.blue).image;
-  CHECK(pixel_at(both, 0, 0) == kBlue);
-  CHECK(pixel_at(both, 69, 0) == kBlue);
-  CHECK(pixel_at(both, 35, 0) == kNothing);
+  CHECK(in_the_middle(both, 0) == kBlue);
+  CHECK(in_the_middle(both, 60) == kBlue);
+  CHECK(in_the_middle(both, 35) == kNothing);
+}
+
+TEST_CASE("The original behind layers that are not bent changes nothing, wherever they lie") {
+  for (const unsigned seed : seeds_of("unbent layers", {1, 2, 3, 4, 5, 6, 7, 8})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto byte = [&] { return static_cast<std::uint8_t>(random() % 256); };
+    const auto chance = [&](unsigned percent) { return random() % 100 < percent; };
+    const auto length = [&] { return static_cast<double>(random() % 4000) / 100 - 20; };
+    Pictures pictures;
+    Image edited;
+    std::vector<Layer> layers;
+    for (int i = 0; i < 4; ++i) {
+      Image image(20, 16);
+      for (std::uint8_t& value : image.pixels) value = byte();
+      Layer layer;
+      layer.id = i + 1;
+      layer.image = reference(("p" + std::to_string(i)).c_str());
+      layer.opacity = chance(50) ? 1 : 0.3;
+      layer.blending = static_cast<Blending>(random() % kBlendingNames.size());
+      layer.clipped = i > 0 && chance(40);
+      layer.placement = {std::polar(chance(50) ? 1 : 1.4, length()), 0, {length(), length()}};
+      if (chance(60)) {  // a box that was moved and turned
+        layer.deformation = with_cage({}, shapes::rectangle(20, 16));
+        const Complex factor = std::polar(1.2, length()), by(length(), length());
+        for (Points& segment : layer.deformation.pose.segments)
+          for (Complex& z : segment) z = factor * z + by;
+      }
+      if (i > 0 && chance(40)) layer.attachment = Attachment{i, Attachment::To::place, 0, {4, 4}};
+      pictures.put(*layer.image, {std::make_shared<const Image>(image), ""});
+      if (i == 0) edited = image;
+      layers.push_back(std::move(layer));
+    }
+    // What is attached to something that was moved must be bent along, which is not the case here.
+    for (size_t i = 1; i < layers.size(); ++i)
+      if (layers[i].attachment) layers[i - 1].deformation = {};
+    Scene scene;
+    scene.layers = shared(std::move(layers));
+    const RasterResult plain = picture_of(scene, &edited, {}, pictures);
+    scene.background.fill = Background::Fill::original;
+    const RasterResult behind = picture_of(scene, &edited, {}, pictures);
+    CHECK(plain.corner == behind.corner);
+    CHECK(plain.image == behind.image);
+    // Where a layer is bent, its original lies where it was placed.
+    Layer still = *scene.layers[0], far = still;
+    still.deformation = {};
+    far.deformation = with_cage({}, shapes::rectangle(20, 16));
+    for (Points& segment : far.deformation.pose.segments)
+      for (Complex& z : segment) z = {z.real() + 0.2 * z.imag() + 400, z.imag()};
+    PictureOptions options;
+    options.region = Box{-60, -60, 60, 60};
+    const auto alone = [&](Layer layer) {
+      Scene one = scene_of(std::move(layer));
+      one.background.fill = Background::Fill::original;
+      return picture_of(one, &edited, options, pictures);
+    };
+    const Image there = alone(still).image, left = alone(far).image;
+    int farthest = 0;
+    for (size_t k = 0; k < left.pixels.size(); ++k) {
+      const int alpha = there.pixels[k | 3];
+      farthest = std::max(farthest, std::abs(left.pixels[k] - there.pixels[k]) * alpha / 255);
+    }
+    CHECK(farthest <= 1);
+  }
 }
 
 TEST_CASE("Views of the map show only the edited layer") {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/layers.h"
+#include "scene/original.h"
 
 namespace holomorph {
 namespace {
@@ -43,6 +44,16 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
 
 bool is_moved(const Workspace& workspace, const Layer& layer) {
   return !is_identity(workspace.placement(layer_index(workspace.document.scene(), layer.id)));
+}
+
+bool moves_as_whole(const Workspace& workspace, size_t layer) {
+  const Layer& it = *workspace.document.scene().layers[layer];
+  const LiveMap& map = workspace.maps.of(it.id);
+  const auto picture = workspace.document.pictures().shared(it);
+  return picture && map.has_map() &&
+         rests_at(resting_placement(workspace.document.scene(), layer), workspace.placement(layer),
+                  *picture) &&
+         moves_as_whole(it.deformation, *picture, *map.drawn(), as_span(map.map().f));
 }
 
 Ink canvas_ink(const Scene& scene, size_t layer) {
@@ -147,7 +158,8 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     if (!compositor_) compositor_ = std::make_unique<Compositor>();
     compositor_->begin(frame.window_width, frame.window_height);
   }
-  const auto draw = [&](const Layer& layer, RenderFrame drawing, const Ink& ink = {}) {
+  const Viewport& frame_view = workspace.display.viewport;
+  const auto draw = [&](const Layer& layer, RenderFrame drawing, const Ink& ink) {
     if (!combines) return paint(layer, std::move(drawing));
     drawing.over = true;
     compositor_->begin_layer();
@@ -158,7 +170,18 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     RenderFrame as_it_was = frame;
     as_it_was.content = Content::original;
     for (const Layer* layer : drawn) {
-      draw(*layer, as_it_was);
+      const size_t number = layer_index(scene, layer->id);
+      const bool moved = moves_as_whole(workspace, number);
+      const bool carries = std::ranges::any_of(clipped_to(scene, number), [&](size_t i) {
+        return is_shown(scene, i) && !moves_as_whole(workspace, i);
+      });
+      if (moved && !carries) continue;
+      as_it_was.content = moved ? Content::map : Content::original;
+      set_view(as_it_was,
+               moved ? workspace.layer_view(number)
+                     : frame_view.of_layer(resting_placement(scene, number)),
+               at);
+      draw(*layer, as_it_was, canvas_ink(scene, number));
       as_it_was.over = true;
     }
   }
@@ -166,8 +189,12 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
   for (const Layer* layer : drawn) {
     const size_t number = layer_index(scene, layer->id);
     RenderFrame drawing = frame;
-    if (!original) set_view(drawing, workspace.layer_view(number), at);
-    if (original || (layer == &edited && workspace.at_rest()))
+    const bool undeformed = original && !moves_as_whole(workspace, number);
+    set_view(drawing,
+             undeformed && !edited_only ? frame_view.of_layer(resting_placement(scene, number))
+                                        : workspace.layer_view(number),
+             at);
+    if (undeformed || (layer == &edited && workspace.at_rest()))
       drawing.placement = Placement::at_rest;
     if (layer == &edited) {
       drawing.wireframe = workspace.display.show_mesh;
