@@ -45,10 +45,12 @@ struct RenderCommand : SceneCommand {
   bool missing = false;           ///< draw only frames that have no file yet
   bool print_rectangle = false;   ///< of the whole motion, instead of drawing
   std::optional<int> depth = {};  ///< bits per color; none: as is usual in the format
+  std::vector<Path> inputs = {};  ///< more files that must not be replaced
 };
 /// Draws each of several scenes. `out` is a folder, or a name in which * stands for the name of the
-/// scene; for a single scene, it can be any name. What can be drawn is drawn, even if other scenes
-/// fail. Throws Error at the end if any failed, and before if pictures would replace each other.
+/// scene. For a single scene, it can also be another name. What can be drawn is drawn, even if
+/// other scenes fail. Throws Error at the end if any failed, and before if pictures would replace
+/// each other.
 struct RenderScenesCommand : RenderCommand {
   std::vector<Path> scenes;
 };

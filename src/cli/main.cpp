@@ -94,7 +94,7 @@ CLI::App* CommandLine::add(CLI::App& app, const char* name, const char* what,
 void add_moments(CLI::App* sub, Moments& moments, const std::string& frames) {
   auto* time = sub->add_option("--time", moments.time,
                                "Time on the timeline, in seconds; after the last keyframe, its "
-                               "pose stays, and scenes without keyframes never change")
+                               "pose stays, and scenes without keyframes and films never change")
                    ->check([](const std::string& text) {
                      double value = 0;
                      return CLI::detail::lexical_cast(text, value) && value >= 0

@@ -56,6 +56,11 @@ void print_motion_rectangle(const LoadedScene& loaded) {
                           .c_str());
 }
 
+void check_picture_out(const RenderCommand& command, const Path& out, const LoadedScene& loaded) {
+  check_out(out, command.force, command.scene, loaded);
+  check_out(out, command.force, command.inputs);
+}
+
 void render_frames(const RenderCommand& command, LoadedScene& loaded, PictureOptions options,
                    const PictureFormat& format, int depth) {
   const Scene& scene = loaded.scene;
@@ -64,8 +69,7 @@ void render_frames(const RenderCommand& command, LoadedScene& loaded, PictureOpt
   for (int i = range.first; i <= range.last; i += range.step)
     if (!command.missing || !path_exists(numbered(command.out, i))) wanted.push_back(i);
   if (wanted.empty()) return;
-  for (const int i : wanted)
-    check_out(numbered(command.out, i), command.force, command.scene, loaded);
+  for (const int i : wanted) check_picture_out(command, numbered(command.out, i), loaded);
   if (options.fine) read_fine_pixels(loaded);
   const DeferredStop tidy;
   std::string said, shared;
@@ -268,7 +272,7 @@ void run(const RenderCommand& command) {
   const Moments& moments = command.moments;
   if (moments.frames || command.print_rectangle) require_keyframes(loaded.scene, command.scene);
   if (command.print_rectangle) return print_motion_rectangle(loaded);
-  if (!moments.frames) check_out(command.out, command.force, command.scene, loaded);
+  if (!moments.frames) check_picture_out(command, command.out, loaded);
   const bool standard = is_standard(command.out);
   if (command.missing && !moments.frames)
     throw Error(ErrorKind::bad_input, "--missing is for frames; use --frames");

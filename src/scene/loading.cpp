@@ -196,12 +196,10 @@ std::set<std::string> update_layers(std::vector<Layer>& layers, const Path& scen
       LayerUpdate update = layer_update(layers, name, files, choices);
       if (!update.unclear.empty() && !options.pictures_may_be_missing)
         throw Error(ErrorKind::bad_input, question_of(update));
-      const auto with_id = [&](int id) {
-        const auto found = std::ranges::find(layers, id, &Layer::id);
-        return found == layers.end() ? nullptr : &*found;
-      };
+      std::vector<const Layer*> all;
+      for (const Layer& layer : layers) all.push_back(&layer);
       std::vector<PixelPosition> carried;
-      for (const Layer& layer : layers) carried.push_back(update.carried(layer, with_id));
+      for (const Layer& layer : layers) carried.push_back(update.carried(all, layer));
       for (size_t i = 0; i < layers.size(); ++i) update.apply(layers[i], carried[i]);
       if (!update.unclear.empty() && loaded.warning.empty()) loaded.warning = unclear_text(update);
       loaded.updates.push_back(std::move(update));
@@ -262,6 +260,14 @@ Sources sources_of(const Scene& scene, const Path& scene_path) {
       sources.surfaces.emplace_back(surface->file);
   }
   return sources;
+}
+
+Sources sources_in(const Path& path) {
+  Scene scene = scene_from_json(read_scene_file(path), path.string());
+  std::vector<Layer> layers = layers_of(scene);
+  for_each_file(layers, [&](std::string& file) { file = resolved_path(path, file).string(); });
+  scene.layers = shared(std::move(layers));
+  return sources_of(scene, path);
 }
 
 void check_not_a_source(const Path& out, const Sources& sources) {

@@ -66,6 +66,8 @@ struct Sources {
 };
 /// The files of a loaded scene that was read from `scene_path`.
 Sources sources_of(const Scene& scene, const Path& scene_path);
+/// The files that a scene's file names, which are not read. Throws Error.
+Sources sources_in(const Path& scene);
 /// Throws Error if writing to `out` would replace one of the sources.
 void check_not_a_source(const Path& out, const Sources& sources);
 /// Like check_not_a_source(), but also throws Error if `out` is read-only.

@@ -694,7 +694,7 @@ class CommandLine(Case):
         scene, picture = (os.path.join(self.folder, "giraffe" + end) for end in (".json", ".png"))
         before = [open(path, "rb").read() for path in (scene, picture)]
         for arguments in (["render", scene, "--out", picture], ["render", scene, "--out", scene],
-                          ["export", scene, "--format", "obj", "--out", picture]):
+                          ["export", scene, "--format", "png", "--out", picture], ["export", scene, "--format", "unwarp", "--out", picture]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn("choose another name", result.stderr)

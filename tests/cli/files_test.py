@@ -273,7 +273,7 @@ class Files(Case):
             with self.subTest(format=name):
                 folder = self.path("small-" + name)
                 os.mkdir(folder)
-                suffix = {"stmap": "exr", "unwarp-map": "npy", "unwarp": "png", "textured": "obj", "godot": "tscn", "drawing": "svg",
+                suffix = {"stmap": "exr", "unwarp-map": "npy", "unwarp": "png", "textured": "obj", "godot": "tscn", "godot3": "tscn", "drawing": "svg",
                           "spine": "json"}.get(name, name)
                 scene = TIGER if name == "textured" else FERN
                 many = ["--frames", "0..3"] if "--frames" in table[table.index("\n" + name + " "):].split("\n")[1] else []
