@@ -158,13 +158,11 @@ void Document::update_layers(const LayerUpdate& update) {
     return known.emplace(key, SharedLayer(std::move(layer))).first->second;
   };
   const auto updated = [&](const Scene& scene) {
-    const auto with_id = [&](int id) {
-      const auto found = std::ranges::find(scene.layers, id, [](const auto& l) { return l->id; });
-      return found == scene.layers.end() ? nullptr : &**found;
-    };
+    std::vector<const Layer*> all;
+    for (const SharedLayer& layer : scene.layers) all.push_back(&*layer);
     Scene result = scene;
     for (SharedLayer& layer : result.layers)
-      layer = updated_layer(layer, update.carried(*layer, with_id));
+      layer = updated_layer(layer, update.carried(all, *layer));
     return result;
   };
   history_.revise_all(updated);

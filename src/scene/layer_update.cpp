@@ -2,7 +2,6 @@
 #include "scene/layer_update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -260,18 +259,16 @@ const std::string& name_in_file(const Layer& layer) {
   return layer.image && layer.image->mark ? layer.image->mark->name : layer.name;
 }
 
-PixelPosition LayerUpdate::carried(const Layer& layer,
-                                   const std::function<const Layer*(int)>& find) const {
+PixelPosition LayerUpdate::carried(std::span<const Layer* const> layers, const Layer& layer) const {
   const Layer* parent = &layer;
-  for (size_t k = 0; k < kMaxLayers && parent->attachment; ++k) {
-    parent = find(parent->attachment->layer);
-    if (!parent) break;
+  for (size_t k = 0; k < layers.size() && parent->attachment; ++k) {
+    const auto it = std::ranges::find(layers, parent->attachment->layer,
+                                      [](const Layer* each) { return each->id; });
+    if (it == layers.end()) break;
+    parent = *it;
     if (!shows_layer_of(*parent, file)) continue;
     const auto found = changes.find(key_of(*parent->image));
-    if (found == changes.end()) continue;
-    const auto& [entry, corner, moved] = found->second;
-    // What is not in the file is itself carried.
-    if (!entry.starts_with(kLostEntry) && !entry.starts_with(kUnclearEntry)) return moved;
+    if (found != changes.end()) return found->second.moved;
   }
   return {};
 }
@@ -286,10 +283,15 @@ void LayerUpdate::apply(Layer& layer, const PixelPosition& carried) const {
   image.corner = corner;
   image.width = width;
   image.height = height;
+  image.moved = {image.moved.x + moved.x, image.moved.y + moved.y};
+  // What moves together with its parent is only carried.
+  if (moved != carried) {
+    const auto translation = [](int x, int y) { return Similarity{1, 0, Complex(x, y)}; };
+    layer.placement = composed(translation(-carried.x, -carried.y),
+                               composed(layer.placement, translation(moved.x, moved.y)));
+  }
   if (!is_lost(image) && !is_unclear(image)) {
     if (before != entry) image.sha256.clear();  // the mark is that of another layer or file
-    if (const PixelPosition by = difference(moved, carried); by != PixelPosition{})
-      layer.placement = composed(layer.placement, Similarity{1, 0, Complex(by.x, by.y)});
     return;
   }
   // Its content keeps its place in the scene, and so its distance from the content of the others.
@@ -370,37 +372,6 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
   return update;
 }
 
-namespace {
-
-/// Where the corner of a file's canvas lies in the scene for most of its layers.
-PixelPosition corner_of_canvas(std::span<const Layer> layers, const std::string& file) {
-  std::vector<std::pair<PixelPosition, int>> votes;
-  const auto vote = [&](const PixelPosition& corner, int weight) {
-    const auto same = std::ranges::find(votes, corner, &std::pair<PixelPosition, int>::first);
-    if (same == votes.end())
-      votes.emplace_back(corner, weight);
-    else
-      same->second += weight;
-  };
-  for (const Layer& layer : layers) {
-    if (!shows_layer_of(layer, file)) continue;
-    const PixelPosition& corner = layer.image->corner;
-    vote(corner, 1);
-    // What has moved in the file has moved in the scene, too, but not the canvas.
-    const Complex by = layer.placement(0);
-    const Complex whole(std::round(by.real()), std::round(by.imag()));
-    constexpr double kRounding = 1e-6, kFarthest = 1e6;
-    if (layer.attachment || layer.placement.factor != 1.0 || std::abs(by - whole) > kRounding ||
-        std::abs(by) > kFarthest)
-      continue;
-    vote({corner.x + static_cast<int>(whole.real()), corner.y + static_cast<int>(whole.imag())}, 2);
-  }
-  if (votes.empty()) return {};
-  return std::ranges::max_element(votes, {}, &std::pair<PixelPosition, int>::second)->first;
-}
-
-}  // namespace
-
 Scene with_added_layers(Scene scene, const LayerUpdate& update, PictureFiles& files,
                         Pictures& pictures) {
   const std::vector<FileLayer>& now = files.layers(update.file).layers;
@@ -409,7 +380,11 @@ Scene with_added_layers(Scene scene, const LayerUpdate& update, PictureFiles& fi
     throw Error(ErrorKind::bad_input,
                 "a scene has at most " + std::to_string(kMaxLayers) + " layers");
   const int edited = layers[scene.edited].id;
-  const PixelPosition corner = corner_of_canvas(layers, update.file);
+  PixelPosition corner;  // of the canvas, where no layer has moved
+  for (const Layer& layer : layers)
+    if (shows_layer_of(layer, update.file))
+      corner = {layer.image->corner.x + layer.image->moved.x,
+                layer.image->corner.y + layer.image->moved.y};
   int last = 0;
   for (const Layer& layer : layers) last = std::max(last, layer.id);
   // Above the layers that are below it in the file, or else below all layers of the file.

@@ -2,8 +2,6 @@
 // removed, renamed or moved layers, or changed the canvas.
 #pragma once
 
-#include <functional>
-
 #include "scene/formats/import_report.h"
 #include "scene/pictures.h"
 
@@ -37,9 +35,9 @@ struct LayerUpdate {
   /// Applies the changes to a layer that is carried this far by others. Layers that are not found
   /// only follow the canvas.
   void apply(Layer& layer, const PixelPosition& carried = {}) const;
-  /// How far the layer to which a layer is attached carries it. `find` returns the layer with an
-  /// id, before the changes, or null.
-  PixelPosition carried(const Layer& layer, const std::function<const Layer*(int)>& find) const;
+  /// How far the layer to which a layer is attached carries it. `layers` are those of the scene,
+  /// before the changes.
+  PixelPosition carried(std::span<const Layer* const> layers, const Layer& layer) const;
 };
 
 /// Which layer is which, as the user says: from the entry or name of a layer before to the entry or
@@ -57,10 +55,10 @@ bool needs_layer_update(std::span<const Layer> layers, const std::string& file,
 /// Finds the layers of a file that the layers of one or more scenes show. A layer is found by its
 /// id in a PSD file, or by its name with those of its groups if it is unique, or by its pixels, in
 /// this order. Where an id and a name contradict each other, the pixels decide whether ids count.
-/// Where a layer with the same pixels has moved, the planes that show it move with it, less what an
-/// attached layer is carried by its parent. A canvas
-/// that has grown or was cropped does not move anything. Throws Error, also if a choice names no
-/// layer. Cost: decodes all layers of the file.
+/// Where a layer with the same pixels has moved, the planes that show it move with it. For an
+/// attached layer, the distance by which its parent carries it is subtracted. A canvas that has
+/// grown or was cropped does not move anything. Throws Error, also if a choice names no layer.
+/// Cost: decodes all layers of the file.
 LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
                          PictureFiles& files, const LayerChoices& choices = {});
 

@@ -52,6 +52,8 @@ struct ImageReference {
   Extra extra;
   std::optional<LayerMark> mark = {};  ///< of a layer of a file
   std::optional<Clip> clip = {};       ///< if the picture moves
+  /// How far the layer's plane has moved because the layer has moved in its file.
+  PixelPosition moved = {};
 
   /// The rectangle of the picture or of its canvas.
   Box page() const {

@@ -135,31 +135,70 @@ class Updates(Case):
                         layer["cage"] = {"rest": [[corner] for corner in corners]}
                         if i > 0 and rng.random() < 0.7:
                             layer["attachment"] = {"layer": rng.randint(1, i), "place": [left + columns / 2, bottom + rows / 2]}
+                    # A layer is taken away, comes back later, and lies where the file has it.
+                    gone = rng.choice(art.layers) if rng.random() < 0.5 else None
                     self.write("s.json", scene)
                     for layer in art.layers:
                         if rng.random() < 0.6:
                             layer["x"] += rng.randrange(-20, 20)
                             layer["y"] += rng.randrange(-20, 20)
+                    if gone:
+                        place = art.layers.index(gone)
+                        art.layers.remove(gone)
+                        self.save(art, kind)
+                        self.good("update", self.path("s.json"))
+                        art.layers.insert(place, gone)
                     self.save(art, kind)
                     self.good("update", self.path("s.json"))
                     self.assert_same(self.drawn(self.BOX), self.composed(art, art.layers, self.BOX, (0, 0)), seed)
 
+    def test_an_enlarged_layer_moves_with_what_it_is_attached_to(self):
+        """Moved together with it, it keeps its place on it; if only the other one is moved, it stays."""
+        for together in (True, False):
+            with self.subTest(together=together):
+                art = Art(random.Random(8), 2)
+                self.start(art, "ids.psd")
+                scene = self.scene()
+                head, hat = scene["layers"]
+                rows, columns = art.layers[0]["pixels"].shape[:2]
+                left, bottom = art.layers[0]["x"], art.height - art.layers[0]["y"] - rows
+                head["id"] = 1
+                head["cage"] = {"rest": [[[left, bottom]], [[left + columns, bottom]], [[left + columns, bottom + rows]], [[left, bottom + rows]]]}
+                hat["attachment"] = {"layer": 1, "place": [left + columns / 2, bottom + rows / 2]}
+                hat["placement"] = {"factor": [0, 2], "shift": [40, -7]}
+                head["visible"] = False
+                self.write("s.json", scene)
+                before = self.drawn((-150, -150, 400, 400))
+                for layer in art.layers[:2 if together else 1]:
+                    layer["x"] += 12
+                self.save(art, "ids.psd")
+                self.good("update", self.path("s.json"))
+                after = self.drawn((-138, -150, 400, 400) if together else (-150, -150, 400, 400))
+                self.assertGreater(before[..., 3].max(), 0)
+                self.assert_same(after, before, together)
+
     def test_new_layers_lie_where_the_canvas_does(self):
         """Layers of the scene were placed by hand, or have moved in the file, when the canvas grows and gets a layer."""
         for kind in ("ora", "ids.psd", "plain.psd"):
-            for placed in ("nothing", "one", "scaled", "moved in the file"):
+            for placed in ("nothing", "one", "both", "scaled", "moved in the file", "moved back in the scene"):
                 with self.subTest(kind=kind, placed=placed):
                     art = Art(random.Random(placed), 2)
                     self.start(art, kind)
                     scene = self.scene()
                     for layer in scene["layers"][:1 if placed == "one" else 2]:
-                        if placed in ("one", "scaled"):
-                            layer["placement"] = {"factor": [1, 0], "shift": [5.5, 0]} if placed == "one" else {"factor": [2, 0], "shift": [0, 0]}
+                        if placed in ("one", "both", "scaled"):
+                            layer["placement"] = {"factor": [2 if placed == "scaled" else 1, 0], "shift": [5, 0]}
                     self.write("s.json", scene)
-                    if placed == "moved in the file":
-                        art.layers[0]["x"] += 7
+                    if placed.startswith("moved"):
+                        for layer in art.layers:
+                            layer["x"] += 7
                         self.save(art, kind)
                         self.good("update", self.path("s.json"))
+                        if placed.startswith("moved back"):
+                            scene = self.scene()
+                            for layer in scene["layers"]:
+                                del layer["placement"]
+                            self.write("s.json", scene)
                     moved = art.grow()
                     self.save(art, kind)
                     self.good("update", self.path("s.json"))

@@ -57,6 +57,7 @@ Json pixel_json(const PixelPosition& position) {
 
 void read_mark(const Reader& reader, ImageReference& image) {
   if (reader.has("corner")) image.corner = read_pixel(reader["corner"]);
+  if (reader.has("moved")) image.moved = read_pixel(reader["moved"]);
   if (!reader.has("hash")) return;
   LayerMark mark;
   mark.hash = reader["hash"].text();
@@ -67,6 +68,7 @@ void read_mark(const Reader& reader, ImageReference& image) {
 
 void write_mark(const ImageReference& image, Json& item) {
   if (image.corner != PixelPosition{}) item["corner"] = pixel_json(image.corner);
+  if (image.moved != PixelPosition{}) item["moved"] = pixel_json(image.moved);
   if (!image.mark) return;
   item["name"] = image.mark->name;
   item["offset"] = pixel_json(image.mark->offset);
@@ -93,7 +95,7 @@ ImageReference read_image(const Reader& reader) {
   }
   read_mark(reader, image);
   image.extra = reader.others(
-      {"file", "entry", "size", "sha256", "clip", "corner", "hash", "name", "offset"});
+      {"file", "entry", "size", "sha256", "clip", "corner", "hash", "moved", "name", "offset"});
   return image;
 }
 
@@ -402,7 +404,8 @@ int version_of(const Scene& scene) {
       }))
     return kNewestVersion;
   if (std::ranges::any_of(scene.layers, [](const SharedLayer& layer) {
-        return layer->image && (layer->image->mark || layer->image->corner != PixelPosition{});
+        return layer->image && (layer->image->mark || layer->image->corner != PixelPosition{} ||
+                                layer->image->moved != PixelPosition{});
       }))
     return kNewestVersion;
   if (any([](const Deformation& d) { return !d.rest.starts.empty(); })) return kHoleVersion;
