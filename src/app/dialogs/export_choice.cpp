@@ -35,7 +35,7 @@ std::vector<ExportChoice> export_choices(const Scene& scene) {
     if (format.label.empty()) continue;
     if (format.meshes && (format.all_layers ? has_any_cage(scene) : has_cage) &&
         (moves(scene) || !format.sequence))
-      all.push_back({format.label, format.extensions[0], ExportKind::meshes});
+      all.push_back({format.label, format.extensions[0], ExportKind::meshes, format.id});
     if (format.st_map && has_cage)
       all.push_back({format.label, format.extensions[0],
                      format.id == "stmap" ? ExportKind::st_map : ExportKind::unwarp_map});

@@ -19,6 +19,7 @@ inline bool is_st_map(ExportKind kind) {
 struct ExportChoice {
   std::string label, extension;
   ExportKind kind = ExportKind::picture;
+  std::string meshes = {};  ///< the id of a format of meshes
 };
 
 /// What a scene can be exported as.

@@ -26,7 +26,8 @@ constexpr const char* kRegions[] = {"Everything", "The picture's rectangle",
                                     "What the canvas shows"};
 
 bool uses_format(const ExportSettings& settings, const ExportChoice& format) {
-  return settings.kind == format.kind && format_extension(settings.path) == format.extension;
+  return settings.kind == format.kind && format_extension(settings.path) == format.extension &&
+         (format.kind != ExportKind::meshes || settings.meshes == format.meshes);
 }
 
 }  // namespace
@@ -260,6 +261,9 @@ bool ExportDialog::take_path(const Path& path) {
   if (other == known.end()) return false;
   if (std::ranges::none_of(known, is_same)) settings_.kind = other->kind;
   settings_.path = path;
+  const auto is_chosen = [&](const ExportChoice& format) { return uses_format(settings_, format); };
+  if (std::ranges::none_of(known, is_chosen))
+    settings_.meshes = std::ranges::find_if(known, is_same)->meshes;
   return true;
 }
 
@@ -345,6 +349,7 @@ void ExportDialog::draw_format() {
   for (const ExportChoice& format : known)
     if (dropdown_row(format.label, uses_format(settings_, format))) {
       settings_.kind = format.kind;
+      settings_.meshes = format.meshes;
       // A skeleton has the extension of scenes, so its name differs.
       const std::string skeleton = "-spine";
       std::string stem = Path(name_).stem().string();

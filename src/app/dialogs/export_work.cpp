@@ -125,10 +125,8 @@ std::string exported_st_map(const ExportWork& work, Job::Progress& progress) {
 }  // namespace
 
 MeshExport mesh_export_of(const ExportSettings& settings, const Scene& scene) {
-  const std::string extension = format_extension(settings.path);
   MeshExport wanted;
-  for (const ExportFormat& format : export_formats())
-    if (format.meshes && format.extensions[0] == extension) wanted.format = format.id;
+  wanted.format = settings.meshes;
   wanted.out = settings.path;
   wanted.vertices = settings.vertices;
   wanted.full_mesh = settings.full_mesh;

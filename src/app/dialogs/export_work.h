@@ -14,6 +14,7 @@ struct ExportSettings {
   enum class Region { all, picture, canvas };
   Path path;  ///< its extension determines the format
   ExportKind kind = ExportKind::picture;
+  std::string meshes = {};   ///< the id of a format of meshes, of which several have one extension
   std::optional<int> depth;  ///< bits per color of a picture; none: as is usual in the format
   double scale = 1;          ///< output pixels per image pixel
   Region region = Region::all;
