@@ -2,9 +2,9 @@
 // Premultiplied alpha.
 uniform sampler2D under_layers;
 uniform sampler2D over_layer;
-uniform int blending;   // -1: copy `under_layers`; else the number of the mode
+uniform int blending;   // -1: copy `under_layers`; -2: see below; else the number of the mode
 uniform float opacity;
-uniform bool clipped;   // the layer changes colors only, and not where they are
+uniform bool clipped;   // the layer changes the colors of its base, but not its shape
 
 out vec4 color;
 
@@ -15,11 +15,16 @@ vec3 straight(vec4 premultiplied) {
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec4 under = texelFetch(under_layers, at, 0);
-  if (blending < 0) {
+  if (blending == -1) {
     color = under;
     return;
   }
   vec4 over = texelFetch(over_layer, at, 0);
+  if (blending == -2) {  // what of `under_layers` fills the gaps of `over_layer`
+    float filled = over.a < 1.0 ? max(0.0, under.a - over.a) / (1.0 - over.a) : 0.0;
+    color = vec4(straight(under) * filled, filled);
+    return;
+  }
   vec3 cs = straight(over), cb = straight(under), mixed = cs;
   float a = over.a * opacity, b = under.a;
   if (blending == 1) mixed = cs * cb;

@@ -6,6 +6,7 @@
 #include "raster/picture.h"
 #include "raster/textured.h"
 #include "scene/formats/svg_path.h"
+#include "scene/preferences.h"
 #include "system/new_file.h"
 
 namespace holomorph {
@@ -16,7 +17,8 @@ Path in_document_folder(const Document& document, const FileChooser& chooser,
   for (const Path& folder :
        {document.path().parent_path(), chooser.folder(), document.first_picture().parent_path()}) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(folder, ignored)) return folder / name;
+    if (folder != pasted_folder() && std::filesystem::is_directory(folder, ignored))
+      return folder / name;
   }
   return absolute_path(name);
 }

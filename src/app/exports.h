@@ -5,8 +5,8 @@
 
 namespace holomorph {
 
-/// The path of a file in the document's folder. If the document has no file yet, the folder of the
-/// last dialog is used.
+/// The path of a file in the document's folder. If the document has no file yet, in the folder of
+/// the last dialog or else of the document's first picture.
 Path in_document_folder(const Document& document, const FileChooser& chooser,
                         const std::string& name);
 

@@ -61,14 +61,10 @@ bool is_settled(const Workspace& workspace) {
          });
 }
 
-LastPicture picture_of(const std::vector<LayerSnapshot>& layers) {
-  Box box;
-  for (const LayerSnapshot& layer : layers) {
-    for (const Complex& z : layer.picture->page().corners()) box.include(layer.placement(z));
-    for (const Complex& z : layer.f) box.include(layer.placement(z));
-  }
-  const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
+RasterResult combined(const std::vector<LayerSnapshot>& layers, const Box& box, double scale,
+                      std::optional<RasterResult> background = {}) {
   Composition all(scale);
+  if (background) all.add(std::move(*background));
   for (const LayerSnapshot& layer : layers) {
     RasterJob job;
     job.mesh = layer.mesh.get();
@@ -84,7 +80,22 @@ LastPicture picture_of(const std::vector<LayerSnapshot>& layers) {
     job.top = box.top;
     all.add(rasterized(job), layer.ink);
   }
-  RasterResult result = std::move(all).result();
+  return std::move(all).result();
+}
+
+/// The layers over what fills their gaps.
+LastPicture picture_of(const std::vector<LayerSnapshot>& layers,
+                       const std::vector<LayerSnapshot>& originals) {
+  Box box;
+  for (const LayerSnapshot& layer : layers) {
+    for (const Complex& z : layer.picture->page().corners()) box.include(layer.placement(z));
+    for (const Complex& z : layer.f) box.include(layer.placement(z));
+  }
+  const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
+  RasterResult result = combined(layers, box, scale);
+  if (!originals.empty())
+    result = combined(layers, box, scale,
+                      gaps_filled_by(combined(originals, box, scale), result, scale));
   LastPicture picture;
   picture.box.include(result.corner);
   picture.box.include(result.corner + Complex(result.image.width, result.image.height) / scale);
@@ -134,18 +145,8 @@ void LastPictureView::update(const Workspace& workspace) {
 
 void LastPictureView::keep(const Workspace& workspace) {
   kept_hash_ = workspace.document.file_hash();
-  std::vector<LayerSnapshot> layers;
+  std::vector<LayerSnapshot> layers, originals;
   const Scene& scene = workspace.document.scene();
-  if (scene.background.fill == Background::Fill::original)
-    for (size_t i = 0; i < scene.layers.size(); ++i) {
-      const Layer& layer = *scene.layers[i];
-      const auto picture = workspace.document.pictures().shared(layer);
-      if (!picture || !is_shown(scene, i) || clip_base(scene, i)) continue;
-      const LiveMap& map = workspace.maps.of(layer.id);
-      if (!map.has_map() ||
-          !moves_as_whole(layer.deformation, *picture, *map.drawn(), as_span(map.map().f)))
-        layers.push_back({nullptr, {}, picture, resting_placement(scene, i), ink_of(scene, i)});
-    }
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     const auto picture = workspace.document.pictures().shared(layer);
@@ -154,14 +155,22 @@ void LastPictureView::keep(const Workspace& workspace) {
     if (!is_shown(scene, i) || !picture || !has_base) continue;
     const LiveMap& map = workspace.maps.of(layer.id);
     const bool bent = layer.deformation.has_cage() && map.has_map();
-    layers.push_back({bent ? map.drawn() : nullptr, bent ? map.map().f : VectorXc(), picture,
-                      workspace.placement(i), ink_of(scene, i)});
+    const LayerSnapshot posed{bent ? map.drawn() : nullptr, bent ? map.map().f : VectorXc(),
+                              picture, workspace.placement(i), ink_of(scene, i)};
+    layers.push_back(posed);
+    const bool is_placed =
+        bent && layers.size() > 1 &&
+        moves_as_whole(layer.deformation, picture->box(), *posed.mesh, as_span(posed.f));
+    originals.push_back(is_placed ? posed : LayerSnapshot{nullptr, {}, picture, {}, posed.ink});
+    originals.back().placement = resting_placement(scene, i);
   }
+  if (scene.background.fill != Background::Fill::original) originals.clear();
   if (layers.empty()) return;
   job_ = std::make_unique<Job>(
       "Keeping the picture",
-      [layers = std::move(layers), hash = kept_hash_](Job::Progress& progress) {
-        const LastPicture picture = picture_of(layers);
+      [layers = std::move(layers), originals = std::move(originals),
+       hash = kept_hash_](Job::Progress& progress) {
+        const LastPicture picture = picture_of(layers, originals);
         if (!progress.cancelled()) keep_last_picture(hash, picture);
       },
       wake_);

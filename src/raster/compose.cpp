@@ -53,7 +53,7 @@ void blend_pixel(const std::array<float, 4>& over, std::array<float, 4>& under,
                  const LayerInk& ink) {
   const float opacity = static_cast<float>(ink.opacity) / 255, a = over[3] * opacity, b = under[3];
   if (a <= 0 || (ink.clipped && b <= 0)) return;
-  const float alone = ink.clipped ? 0 : 1 - b;  // the part of `over` that nothing is below
+  const float alone = ink.clipped ? 0 : 1 - b;  // the part of `over` with nothing below it
   if (ink.blending == Blending::normal) {
     for (size_t k = 0; k < 3; ++k) under[k] = (alone + b) * opacity * over[k] + (1 - a) * under[k];
   } else {
@@ -184,6 +184,29 @@ void Composition::blend(const Layer& over, Layer& under, const LayerInk& ink) co
     Pixel* to = &under.pixels[static_cast<size_t>(top + r) * static_cast<size_t>(under.width)];
     for (int c = std::max(0, -left); c < columns; ++c) blend_pixel(from[c], to[left + c], ink);
   }
+}
+
+RasterResult gaps_filled_by(RasterResult background, const RasterResult& picture,
+                            double pixels_per_unit) {
+  const Shift shift = shift_between(picture.corner, background.corner, pixels_per_unit);
+  Image& image = background.image;
+  const Image& over = picture.image;
+  const int top = over.height - shift.up - image.height;
+  const auto fill = [](float alpha, float covered) {
+    return covered >= 1 ? 0 : std::max(0.0f, alpha - covered) / (1 - covered);
+  };
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c) {
+      const int row = top + r, column = shift.right + c;
+      if (row < 0 || row >= over.height || column < 0 || column >= over.width) continue;
+      const size_t at = image.index(c, r) + 3, there = over.index(column, row) + 3;
+      const float covered =
+          (over.fine.empty() ? static_cast<float>(over.pixels[there]) : over.fine[there]) / 255;
+      if (!image.fine.empty()) image.fine[at] = 255 * fill(image.fine[at] / 255, covered);
+      image.pixels[at] = static_cast<std::uint8_t>(
+          255 * fill(static_cast<float>(image.pixels[at]) / 255, covered) + 0.5f);
+    }
+  return background;
 }
 
 Box filled_box(const RasterResult& result, double pixels_per_unit) {

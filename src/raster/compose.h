@@ -55,6 +55,11 @@ class Composition {
   std::optional<Layer> group_;  ///< the base with what is clipped to it; none if nothing is
 };
 
+/// The background of which only what fills the gaps of a picture is left: together, they have the
+/// larger alpha of the two.
+RasterResult gaps_filled_by(RasterResult background, const RasterResult& picture,
+                            double pixels_per_unit);
+
 /// The part of the plane that pixels with some alpha cover; empty if there are none.
 Box filled_box(const RasterResult& result, double pixels_per_unit);
 /// The smallest part of a picture that contains all pixels with some alpha. A picture without any

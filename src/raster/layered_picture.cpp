@@ -27,6 +27,8 @@ DrawnLayer on_canvas(const RasterResult& drawn, const RasterResult& canvas, doub
   return layer;
 }
 
+constexpr const char* kLayerPrefix = "layer-";
+
 /// Draws the layers of a scene on the canvas of their merged picture.
 class LayerDrawer {
  public:
@@ -47,7 +49,7 @@ class LayerDrawer {
     const Layer& it = *scene_.layers[i];
     std::optional<DrawnLayer> drawn;
     if (const auto text = drawings_.drawing(it)) {
-      drawn = of_drawing(i, *text, "layer-", true);
+      drawn = of_drawing(i, *text, kLayerPrefix, true, maker_.placement(i, options_.time));
     } else if (const auto pixels = maker_.layer(i, options_)) {
       drawn = on_canvas(*pixels, canvas_, options_.scale, title_of_layer(scene_, i));
     }
@@ -60,31 +62,35 @@ class LayerDrawer {
     return drawn;
   }
 
-  /// The pictures as they are at rest, as the background. Drawings stay drawings if there are any.
+  /// The background that shows the pictures before bending. Drawings stay drawings, unless only a
+  /// part of them fills gaps.
   std::vector<DrawnLayer> originals() {
     std::vector<DrawnLayer> all;
     const bool any = std::ranges::any_of(scene_.layers, [&](const SharedLayer& layer) {
       return drawings_.drawing(*layer) != nullptr;
     });
-    if (!any) {
-      if (const auto original = maker_.originals(options_))
-        all.push_back(on_canvas(*original, canvas_, options_.scale, "Original"));
+    if (!any || !maker_.has_opaque_originals()) {
+      const auto original = maker_.originals(options_);
+      if (!original) return all;
+      all.push_back(on_canvas(*original, canvas_, options_.scale, "Original"));
+      if (any) losses_.push_back("the original behind the layers is written as pixels");
       return all;
     }
     for (size_t i = 0; i < scene_.layers.size(); ++i) {
-      const PictureMaker::Original kind = maker_.original_of(i, options_);
-      if (kind == PictureMaker::Original::none) continue;
+      if (!maker_.draws(i)) continue;
       const auto text = drawings_.drawing(*scene_.layers[i]);
+      std::optional<DrawnLayer> drawn;
       if (text)
-        all.push_back(of_drawing(i, *text, "original-", kind == PictureMaker::Original::posed));
+        drawn = of_drawing(i, *text, "original-", maker_.moves_as_whole(i, options_.time),
+                           resting_placement(scene_, i));
       else if (const auto pixels = maker_.original(i, options_))
-        all.push_back(on_canvas(*pixels, canvas_, options_.scale, ""));
-      else
-        continue;
-      all.back().name = "Original of " + title_of_layer(scene_, i);
-      all.back().opacity = scene_.layers[i]->opacity;
-      all.back().blending = scene_.layers[i]->blending;
-      all.back().clipped = clip_base(scene_, i).has_value();
+        drawn = on_canvas(*pixels, canvas_, options_.scale, "");
+      if (!drawn) continue;
+      drawn->name = "Original of " + title_of_layer(scene_, i);
+      drawn->opacity = scene_.layers[i]->opacity;
+      drawn->blending = scene_.layers[i]->blending;
+      drawn->clipped = clip_base(scene_, i).has_value();
+      all.push_back(std::move(*drawn));
     }
     return all;
   }
@@ -100,25 +106,23 @@ class LayerDrawer {
   }
 
  private:
-  DrawnLayer of_drawing(size_t i, const std::string& text, const std::string& prefix, bool bent) {
+  DrawnLayer of_drawing(size_t i, const std::string& text, const std::string& prefix, bool bent,
+                        const Similarity& placement) {
     const Layer& it = *scene_.layers[i];
     const Picture* picture = drawings_.find(*it.image);
     const SourceDrawing source{text, it.image->file, *picture->image};
     const Similarity to_canvas{options_.scale, canvas_.corner, 0};
-    DrawingPlace place{to_canvas, static_cast<double>(canvas_.image.height),
-                       prefix + std::to_string(i + 1) + "-"};
+    const DrawingPlace place{composed(to_canvas, placement),
+                             static_cast<double>(canvas_.image.height),
+                             prefix + std::to_string(i + 1) + "-"};
     DrawnLayer drawn;
     drawn.name = title_of_layer(scene_, i);
     std::vector<std::string> losses;
-    if (bent) {
-      place.to_canvas = composed(to_canvas, maker_.placement(i, options_.time));
-      drawn.drawing = layer_drawing(source, it.deformation, scene_.animation.linear_blend,
-                                    options_.time, place, losses, keep_going_);
+    drawn.drawing = bent ? layer_drawing(source, it.deformation, scene_.animation.linear_blend,
+                                         options_.time, place, losses, keep_going_)
+                         : placed_drawing(source, place, losses);
+    if (prefix == kLayerPrefix)
       for (const std::string& loss : losses) losses_.push_back(drawn.name + ": " + loss);
-    } else {
-      place.to_canvas = composed(to_canvas, resting_placement(scene_, i));
-      drawn.drawing = placed_drawing(source, place, losses);
-    }
     return drawn;
   }
 

@@ -110,13 +110,13 @@ class PictureMaker::LayerMaker {
     job.placement = placement;
     return rasterized(job);
   }
-  /// Whether the picture is moved as a whole, and leaves no gaps.
   bool moves_as_whole(const std::optional<double>& time) {
-    if (!deformation_.has_cage()) return true;
-    if (is_resized()) return false;
+    if (!source_ || !deformation_.has_cage() || is_resized()) return false;
     const VectorXc& f = positions_at(time);
-    return holomorph::moves_as_whole(deformation_, *source_, *prepared_->mesh, as_span(f));
+    return holomorph::moves_as_whole(deformation_, source_->box(), *prepared_->mesh, as_span(f));
   }
+  /// Whether the undeformed picture covers its rectangle.
+  bool is_opaque() const { return source_ && holomorph::is_opaque(*source_); }
 
   /// How the layer moves what is attached to it.
   Similarity motion(const std::optional<double>& time, const Attachment& attachment) {
@@ -225,7 +225,7 @@ class PictureMaker::LayerMaker {
 
   std::shared_ptr<const Fringe> new_fringe() const {
     if (!is_resized()) return fringe_of(*prepared_->mesh, *source_);
-    if (is_opaque(*source_)) return nullptr;  // saves resizing the frames of a film
+    if (holomorph::is_opaque(*source_)) return nullptr;  // saves resizing the frames of a film
     RasterResult resized = rasterized(job_of({}, page_.top));
     resized.image.left = static_cast<int>(std::lround(resized.corner.real()));
     resized.image.bottom = static_cast<int>(std::lround(resized.corner.imag()));
@@ -296,53 +296,60 @@ std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOpti
   return layers_[number]->picture(frame, placement(number, options.time));
 }
 
-PictureMaker::Original PictureMaker::original_of(size_t number, const PictureOptions& options) {
-  const auto moves = [&](size_t i) {
-    return layers_[i]->moves_as_whole(options.time) &&
-           rests_at(resting_placement(scene_, i), placement(i, options.time),
-                    *layers_[i]->source());
-  };
-  const auto takes_part = [&](size_t i) { return draws(i) && layers_[i]->source(); };
-  if (!takes_part(number)) return Original::none;
-  if (!moves(number)) return Original::undeformed;
-  const std::vector<size_t> clipped = clipped_to(scene_, number);
-  return std::ranges::any_of(clipped, [&](size_t i) { return takes_part(i) && !moves(i); })
-             ? Original::posed
-             : Original::none;
+bool PictureMaker::moves_as_whole(size_t number, const std::optional<double>& time) {
+  bool is_lowest = true;
+  for (size_t i = 0; i < number; ++i) is_lowest = is_lowest && !draws(i);
+  return !is_lowest && layers_[number]->moves_as_whole(time);
 }
 
 std::optional<RasterResult> PictureMaker::original(size_t number, const PictureOptions& options) {
-  switch (original_of(number, options)) {
-    case Original::none:
-      return {};
-    case Original::posed:
-      return layer(number, options);
-    case Original::undeformed:
-      break;
-  }
-  return layers_[number]->original(frame_of(options), resting_placement(scene_, number));
+  LayerMaker& layer = *layers_[number];
+  if (!layer.source()) return {};
+  const Similarity placement = resting_placement(scene_, number);
+  return moves_as_whole(number, options.time) ? layer.picture(frame_of(options), placement)
+                                              : layer.original(frame_of(options), placement);
+}
+
+bool PictureMaker::has_opaque_originals() const {
+  for (size_t i = 0; i < layers_.size(); ++i)
+    if (draws(i) && (is_blended(*scene_.layers[i]) || !layers_[i]->is_opaque() ||
+                     !is_identity(resting_placement(scene_, i))))
+      return false;
+  return true;
+}
+
+void PictureMaker::add_posed(Composition& all, const PictureOptions& options) {
+  const Frame frame = frame_of(options);
+  for (size_t i = 0; i < layers_.size(); ++i)
+    if (draws(i))
+      all.add(layers_[i]->picture(frame, placement(i, options.time)), ink_of(scene_, i));
 }
 
 std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) {
   Composition all(options.scale);
   for (size_t i = 0; i < layers_.size(); ++i)
-    if (auto drawn = original(i, options)) all.add(std::move(*drawn), ink_of(scene_, i));
-  return all.empty() ? std::nullopt : std::optional(std::move(all).result());
+    if (auto drawn = draws(i) ? original(i, options) : std::nullopt)
+      all.add(std::move(*drawn), ink_of(scene_, i));
+  if (all.empty()) return {};
+  RasterResult background = std::move(all).result();
+  if (has_opaque_originals()) return background;
+  Composition posed(options.scale);
+  add_posed(posed, options);
+  background = gaps_filled_by(std::move(background), std::move(posed).result(), options.scale);
+  if (filled_range(background.image).empty()) return {};
+  return background;
 }
 
 RasterResult PictureMaker::picture(const PictureOptions& options) {
   if (options.time && has_keyframes(scene_) && !has_playing_keys(scene_) && !has_clips(scene_))
     throw no_key_plays();
-  const Frame frame = frame_of(options);
-  const auto drawn = [&](size_t layer) {
-    return layers_[layer]->picture(frame, placement(layer, options.time));
-  };
-  if (options.view != View::image) return drawn(scene_.edited);
+  if (options.view != View::image)
+    return layers_[scene_.edited]->picture(frame_of(options),
+                                           placement(scene_.edited, options.time));
   Composition all(options.scale);
   if (scene_.background.fill == Background::Fill::original)
     if (auto original = originals(options)) all.add(std::move(*original));
-  for (size_t i = 0; i < layers_.size(); ++i)
-    if (draws(i)) all.add(drawn(i), ink_of(scene_, i));
+  add_posed(all, options);
   if (all.empty())
     throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
   RasterResult result = std::move(all).result();
@@ -396,8 +403,12 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
   const auto is_moved = [&](size_t i) {
     return parent_of(scene_, *scene_.layers[i]) || !is_identity(scene_.layers[i]->placement);
   };
-  for (size_t i = 0; i < layers_.size(); ++i)
-    if (layers_[i]->visible() && !is_moved(i)) layers_[i]->include_page(box, {});
+  const bool has_originals = scene_.background.fill == Background::Fill::original;
+  for (size_t i = 0; i < layers_.size(); ++i) {
+    if (!layers_[i]->visible()) continue;
+    if (!is_moved(i)) layers_[i]->include_page(box, {});
+    if (has_originals) layers_[i]->include_page(box, resting_placement(scene_, i));
+  }
   for (size_t i = 0; i < layers_.size(); ++i) {
     LayerMaker& layer = *layers_[i];
     if (!layer.visible() && has_layers(scene_)) continue;

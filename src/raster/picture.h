@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "raster/compose.h"
 #include "raster/motion_box.h"
 #include "raster/raster.h"
 #include "scene/pictures.h"
@@ -45,17 +46,16 @@ class PictureMaker {
   /// Shows another picture, of any size, in the rectangle of the edited layer's picture, and stops
   /// its film. It must stay alive until the next call.
   void show(const Image& picture);
-  /// How a layer takes part in the background that shows the undeformed pictures.
-  enum class Original {
-    none,   ///< it has no picture, or moves as a whole
-    posed,  ///< it moves as a whole, but something that is clipped to it does not
-    undeformed,
-  };
-  Original original_of(size_t number, const PictureOptions& options);
-  /// One layer of this background alone; none if it takes no part.
+  /// Whether the original of a layer is where the layer is, because it is moved as a whole. That of
+  /// the lowest visible layer stays: it is the page on which the others lie.
+  bool moves_as_whole(size_t number, const std::optional<double>& time);
+  /// A layer as it is before bending; none if it has no picture.
   std::optional<RasterResult> original(size_t number, const PictureOptions& options);
-  /// The whole background; none if no layer takes part.
+  /// What fills the gaps of the picture where the visible layers were before bending; none if there
+  /// are none.
   std::optional<RasterResult> originals(const PictureOptions& options);
+  /// Whether originals cover what they fill, so that they lie whole behind the layers.
+  bool has_opaque_originals() const;
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
   /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
   /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between
@@ -78,6 +78,8 @@ class PictureMaker {
     std::optional<Box> stage = {};  ///< as in RasterJob
   };
   Frame frame_of(const PictureOptions& options) const;
+  /// Adds the visible layers.
+  void add_posed(Composition& all, const PictureOptions& options);
   std::vector<MotionPart> motion_parts(size_t layer);
 
   const Scene& scene_;

@@ -11,14 +11,14 @@ namespace holomorph {
 Compositor::Compositor() : program_(composite_program()) {
   glGenVertexArrays(1, &array_);
   glGenRenderbuffers(1, &stencil_);
-  for (Target* target : {&under_, &base_, &over_, &result_}) {
+  for (Target* target : targets()) {
     glGenFramebuffers(1, &target->framebuffer);
     glGenTextures(1, &target->texture);
   }
 }
 
 Compositor::~Compositor() {
-  for (Target* target : {&under_, &base_, &over_, &result_}) {
+  for (Target* target : targets()) {
     glDeleteFramebuffers(1, &target->framebuffer);
     glDeleteTextures(1, &target->texture);
   }
@@ -29,7 +29,7 @@ Compositor::~Compositor() {
 void Compositor::resize(int width, int height) {
   glBindRenderbuffer(GL_RENDERBUFFER, stencil_);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
-  for (Target* target : {&under_, &base_, &over_, &result_}) {
+  for (Target* target : targets()) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target->texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
@@ -108,6 +108,18 @@ void Compositor::end_layer(const Ink& ink) {
   std::swap(base_, over_);
   base_ink_ = ink;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Compositor::keep() {
+  end_base();
+  std::swap(kept_, under_);
+  clear(under_);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Compositor::fill_gaps() {
+  end_base();
+  blend(under_, kept_, {.blending = -2});
 }
 
 void Compositor::finish(int left, int bottom, int width, int height) {

@@ -1,6 +1,7 @@
 // Combines layers with opacities and blending modes, away from the window.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "render/program.h"
@@ -31,6 +32,11 @@ class Compositor {
   void begin_layer();
   /// Adds the layer to those below it. The first one must not be clipped.
   void end_layer(const Ink& ink);
+  /// Keeps the result, and starts again with nothing.
+  void keep();
+  /// Leaves only what fills the gaps of the result that was kept: together, they have the larger
+  /// alpha of the two.
+  void fill_gaps();
   /// Draws the result over the window's content, within this rectangle in framebuffer px with its
   /// origin at the lower left.
   void finish(int left, int bottom, int width, int height);
@@ -39,6 +45,7 @@ class Compositor {
   struct Target {
     unsigned framebuffer = 0, texture = 0;
   };
+  std::array<Target*, 5> targets() { return {&under_, &base_, &over_, &result_, &kept_}; }
   void resize(int width, int height);
   static void clear(const Target& target);
   void blend(Target& under, const Target& over, const Ink& ink);
@@ -47,7 +54,7 @@ class Compositor {
   void end_base();
 
   Program program_;
-  Target under_, base_, over_, result_;
+  Target under_, base_, over_, result_, kept_;
   std::optional<Ink> base_ink_;  ///< none: nothing has been drawn into base_
   unsigned array_ = 0, stencil_ = 0;
   int width_ = 0, height_ = 0;

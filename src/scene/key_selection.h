@@ -40,7 +40,7 @@ struct CopiedKeys {
 /// Copies of the editable keyframes of a selection. They keep the whole turns between them.
 CopiedKeys copied_keys(const Scene& scene, const KeySelection& keys);
 /// Those of the copies that fit the scene: their layers exist and can be edited, and still have the
-/// cage of the poses.
+/// cage, pins and strokes of the poses.
 CopiedKeys fitting(const Scene& scene, CopiedKeys copied);
 
 struct MovedKeys {

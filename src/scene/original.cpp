@@ -1,11 +1,12 @@
+// Placing a picture gives it a box as its cage, so that a box that only moves is a placement.
 #include "scene/original.h"
 
 #include <algorithm>
 
 #include "core/geometry/polygon.h"
 #include "core/geometry/similarity.h"
+#include "core/mesh/mesh.h"
 #include "scene/attachments.h"
-#include "scene/layers.h"
 
 namespace holomorph {
 namespace {
@@ -31,29 +32,16 @@ Similarity resting_placement(const Scene& scene, size_t layer) {
   return placement_of(scene, layer, [](size_t) { return Similarity{}; });
 }
 
-bool rests_at(const Similarity& resting, const Similarity& placed, const Image& picture) {
-  const double near = kExact * std::abs(resting.factor) * picture.box().diagonal();
-  return std::ranges::all_of(picture.box().corners(),
-                             [&](Complex z) { return std::abs(resting(z) - placed(z)) <= near; });
-}
-
-bool moves_as_whole(const Deformation& deformation, const Image& picture, const Mesh& mesh,
+bool moves_as_whole(const Deformation& deformation, const Box& picture, const Mesh& mesh,
                     std::span<const Complex> positions) {
-  if (!deformation.has_cage() || !is_box(deformation.rest, picture.box()) ||
+  if (!deformation.has_cage() || !is_box(deformation.rest, picture) ||
       positions.size() != mesh.vertices.size())
     return false;
   const Similarity similarity = similarity_between(mesh.vertices, positions);
-  const double near = kExact * std::abs(similarity.factor) * picture.box().diagonal();
+  const double near = kExact * std::abs(similarity.factor) * picture.diagonal();
   for (size_t v = 0; v < positions.size(); ++v)
     if (std::abs(similarity(mesh.vertices[v]) - positions[v]) > near) return false;
   return true;
-}
-
-std::vector<size_t> clipped_to(const Scene& scene, size_t base) {
-  std::vector<size_t> layers;
-  for (size_t i = base + 1; i < scene.layers.size(); ++i)
-    if (clip_base(scene, i) == base) layers.push_back(i);
-  return layers;
 }
 
 }  // namespace holomorph

@@ -150,6 +150,29 @@ class EditorWindowTest(WindowCase):
                     self.assertLess(numpy.ptp(shot[py, px]), 30, "the page")
 
     @real
+    def test_originals_do_not_shine_through_faint_layers(self):
+        """A faint picture that is not bent, below one that is, looks the same with and without its original behind it."""
+        Image.new("RGBA", (200, 120), (200, 60, 40, 120)).save(os.path.join(self.work, "faint.png"))
+        self.plain("bent.png", (40, 90, 220), (80, 60))
+        box = [[0, 0], [80, 0], [80, 60], [0, 60]]
+        layers = [{"image": {"file": "faint.png"}, "cage": {"rest": []}},
+                  {"image": {"file": "bent.png"}, "placement": {"factor": [1, 0], "shift": [120, 50]},
+                   "cage": {"rest": [[p] for p in box], "pose": [[[x + 30 + 0.4 * y, y + 0.2 * x]] for x, y in box]}}]
+        scene, shots = os.path.join(self.work, "faint.json"), []
+        for background in ({}, {"background": "original"}):
+            with open(scene, "w") as file:
+                json.dump({"format": "holomorph", "version": 2, "layers": layers, **background}, file)
+            with Editor([scene]) as editor:
+                editor.wait(lambda s: s["layers"] == 2 and s["pictured"], "the scene")
+                editor.wait(lambda s: not s["moving"], "an interface at rest")
+                editor.pause(0.5)
+                shot = self.screenshot(editor, "faint" + "".join(background.values())).astype(int)
+                shots.append([shot[editor.pixel(x, y)[1], editor.pixel(x, y)[0]] for x, y in ((20, 20), (60, 100), (90, 40), (130, 60))])
+        for k in range(3):
+            self.assertLessEqual(numpy.abs(shots[1][k] - shots[0][k]).max(), 1, (k, shots))
+        self.assertGreater(numpy.abs(shots[1][3] - shots[0][3]).max(), 50)  # the original of the bent one
+
+    @real
     def test_clipped_layers_look_like_the_export(self):
         seed = seed_of("clipped layers")
         rng = numpy.random.default_rng(seed)

@@ -75,12 +75,15 @@ Scene moved(Scene scene, Complex by) {
   return with_deformation(std::move(scene), std::move(deformation));
 }
 
-/// Bends the edited layer.
-Scene sheared(Scene scene) {
-  Deformation deformation = scene.deformation();
-  for (Points& segment : deformation.pose.segments)
-    for (Complex& z : segment) z += 0.1 * z.imag();
-  return with_deformation(std::move(scene), std::move(deformation));
+/// The largest difference of what can be seen of two pictures.
+int farthest_apart(const Image& a, const Image& b) {
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  int farthest = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i)
+    farthest = std::max(farthest, std::abs(a.pixels[i] * (i % 4 == 3 ? 255 : a.pixels[i | 3]) -
+                                           b.pixels[i] * (i % 4 == 3 ? 255 : b.pixels[i | 3])) /
+                                      255);
+  return farthest;
 }
 
 }  // namespace
@@ -138,23 +141,19 @@ TEST_CASE("The background shows through where no layer is") {
   CHECK(pixel_at(two.drawn().image, 0, 0) == Pixel{9, 8, 7, 255});
   CHECK(pixel_at(two.drawn().image, 69, 0) == kBlue);
   two.scene.background.fill = Background::Fill::original;
-  two.scene = sheared(two.scene);
-  const auto in_the_middle = [](const Image& image, int column) {
-    return pixel_at(image, column, image.height / 2);
-  };
-  CHECK(in_the_middle(two.drawn().image, 0) == kBlue);  // the undeformed picture
-  CHECK(in_the_middle(two.drawn().image, 35) == kNothing);
+  CHECK(pixel_at(two.drawn().image, 0, 0) == kBlue);  // the undeformed picture
+  CHECK(pixel_at(two.drawn().image, 35, 0) == kNothing);
   // The same holds in a scene with one layer.
-  Scene alone = sheared(moved(scene_of(with_cage({}, shapes::rectangle(30, 20))), {40, 0}));
+  Scene alone = moved(scene_of(with_cage({}, shapes::rectangle(30, 20))), {40, 0});
   alone.background = {Background::Fill::original};
   const Image both = picture_of(alone, &two.blue).image;
-  CHECK(in_the_middle(both, 0) == kBlue);
-  CHECK(in_the_middle(both, 60) == kBlue);
-  CHECK(in_the_middle(both, 35) == kNothing);
+  CHECK(pixel_at(both, 0, 0) == kBlue);
+  CHECK(pixel_at(both, 69, 0) == kBlue);
+  CHECK(pixel_at(both, 35, 0) == kNothing);
 }
 
 TEST_CASE("The original behind layers that are not bent changes nothing, wherever they lie") {
-  for (const unsigned seed : seeds_of("unbent layers", {1, 2, 3, 4, 5, 6, 7, 8})) {
+  for (const unsigned seed : seeds_of("unbent layers", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const auto byte = [&] { return static_cast<std::uint8_t>(random() % 256); };
@@ -173,7 +172,9 @@ TEST_CASE("The original behind layers that are not bent changes nothing, whereve
       layer.blending = static_cast<Blending>(random() % kBlendingNames.size());
       layer.clipped = i > 0 && chance(40);
       layer.placement = {std::polar(chance(50) ? 1 : 1.4, length()), 0, {length(), length()}};
-      if (chance(60)) {  // a box that was moved and turned
+      if (i == 0 && chance(50)) {  // a cage inside the picture, at rest
+        layer.deformation = with_cage({}, {{4.3, 3.1}, {15.6, 4.2}, {14.1, 12.7}, {5.2, 13.4}});
+      } else if (i > 0 && chance(60)) {  // a box that was moved and turned
         layer.deformation = with_cage({}, shapes::rectangle(20, 16));
         const Complex factor = std::polar(1.2, length()), by(length(), length());
         for (Points& segment : layer.deformation.pose.segments)
@@ -184,8 +185,8 @@ TEST_CASE("The original behind layers that are not bent changes nothing, whereve
       if (i == 0) edited = image;
       layers.push_back(std::move(layer));
     }
-    // What is attached to something that was moved must be bent along, which is not the case here.
-    for (size_t i = 1; i < layers.size(); ++i)
+    // The original of what is attached to something that was moved lies where it was before.
+    for (size_t i = 2; i < layers.size(); ++i)
       if (layers[i].attachment) layers[i - 1].deformation = {};
     Scene scene;
     scene.layers = shared(std::move(layers));
@@ -193,7 +194,7 @@ TEST_CASE("The original behind layers that are not bent changes nothing, whereve
     scene.background.fill = Background::Fill::original;
     const RasterResult behind = picture_of(scene, &edited, {}, pictures);
     CHECK(plain.corner == behind.corner);
-    CHECK(plain.image == behind.image);
+    CHECK(farthest_apart(plain.image, behind.image) <= 2);
     // Where a layer is bent, its original lies where it was placed.
     Layer still = *scene.layers[0], far = still;
     still.deformation = {};
@@ -208,12 +209,7 @@ TEST_CASE("The original behind layers that are not bent changes nothing, whereve
       return picture_of(one, &edited, options, pictures);
     };
     const Image there = alone(still).image, left = alone(far).image;
-    int farthest = 0;
-    for (size_t k = 0; k < left.pixels.size(); ++k) {
-      const int alpha = there.pixels[k | 3];
-      farthest = std::max(farthest, std::abs(left.pixels[k] - there.pixels[k]) * alpha / 255);
-    }
-    CHECK(farthest <= 1);
+    CHECK(farthest_apart(left, there) <= 1);
   }
 }
 

@@ -46,14 +46,11 @@ bool is_moved(const Workspace& workspace, const Layer& layer) {
   return !is_identity(workspace.placement(layer_index(workspace.document.scene(), layer.id)));
 }
 
-bool moves_as_whole(const Workspace& workspace, size_t layer) {
-  const Layer& it = *workspace.document.scene().layers[layer];
-  const LiveMap& map = workspace.maps.of(it.id);
-  const auto picture = workspace.document.pictures().shared(it);
+bool moves_as_whole(const Workspace& workspace, const Layer& layer) {
+  const LiveMap& map = workspace.maps.of(layer.id);
+  const auto picture = workspace.document.pictures().shared(layer);
   return picture && map.has_map() &&
-         rests_at(resting_placement(workspace.document.scene(), layer), workspace.placement(layer),
-                  *picture) &&
-         moves_as_whole(it.deformation, *picture, *map.drawn(), as_span(map.map().f));
+         moves_as_whole(layer.deformation, picture->box(), *map.drawn(), as_span(map.map().f));
 }
 
 Ink canvas_ink(const Scene& scene, size_t layer) {
@@ -136,18 +133,24 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     drawn.push_back(&layer);
   }
   if (at.page_alone) drawn.clear();
+  const bool has_originals = scene.background.fill == Background::Fill::original && !edited_only;
   // With opacities or blending modes, the page is drawn alone, and the layers are combined away
   // from the window. The page is also drawn alone if its layer has been moved away from it.
-  const bool combines = !edited_only && std::ranges::any_of(drawn, [](const Layer* layer) {
-    return is_blended(*layer);
-  });
+  const bool combines =
+      !edited_only &&
+      (std::ranges::any_of(drawn, [](const Layer* layer) { return is_blended(*layer); }) ||
+       // Opaque originals can be drawn behind the layers as they are.
+       (has_originals && !std::ranges::all_of(drawn, [&](const Layer* layer) {
+          return painter_of(*layer).is_opaque() &&
+                 is_identity(resting_placement(scene, layer_index(scene, layer->id)));
+        })));
   const auto paint = [&](const Layer& layer, RenderFrame drawing) {
     painter_of(layer).draw(workspace.maps.of(layer.id),
                            &layer == &edited ? workspace.display.view : View::image,
                            std::move(drawing));
     frame.over = true;
   };
-  const bool places = !drawn.empty() && is_moved(workspace, *drawn.front());
+  const bool places = has_originals || (!drawn.empty() && is_moved(workspace, *drawn.front()));
   if (drawn.empty() || combines || places) {
     RenderFrame page = frame;
     page.content = Content::nothing;
@@ -158,51 +161,51 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     if (!compositor_) compositor_ = std::make_unique<Compositor>();
     compositor_->begin(frame.window_width, frame.window_height);
   }
-  const Viewport& frame_view = workspace.display.viewport;
-  const auto draw = [&](const Layer& layer, RenderFrame drawing, const Ink& ink) {
+  const auto draw = [&](const Layer& layer, RenderFrame drawing) {
     if (!combines) return paint(layer, std::move(drawing));
     drawing.over = true;
     compositor_->begin_layer();
     paint(layer, std::move(drawing));
-    compositor_->end_layer(ink);
+    compositor_->end_layer(canvas_ink(scene, layer_index(scene, layer.id)));
   };
-  if (scene.background.fill == Background::Fill::original && !edited_only) {
-    RenderFrame as_it_was = frame;
-    as_it_was.content = Content::original;
-    for (const Layer* layer : drawn) {
-      const size_t number = layer_index(scene, layer->id);
-      const bool moved = moves_as_whole(workspace, number);
-      const bool carries = std::ranges::any_of(clipped_to(scene, number), [&](size_t i) {
-        return is_shown(scene, i) && !moves_as_whole(workspace, i);
-      });
-      if (moved && !carries) continue;
-      as_it_was.content = moved ? Content::map : Content::original;
-      set_view(as_it_was,
-               moved ? workspace.layer_view(number)
-                     : frame_view.of_layer(resting_placement(scene, number)),
-               at);
-      draw(*layer, as_it_was, canvas_ink(scene, number));
-      as_it_was.over = true;
-    }
-  }
+  const auto resting_view = [&](const Layer& layer) {
+    return workspace.display.viewport.of_layer(
+        resting_placement(scene, layer_index(scene, layer.id)));
+  };
   const std::vector<OnionSkin> skins = workspace.onion_skins();
-  for (const Layer* layer : drawn) {
-    const size_t number = layer_index(scene, layer->id);
-    RenderFrame drawing = frame;
-    const bool undeformed = original && !moves_as_whole(workspace, number);
-    set_view(drawing,
-             undeformed && !edited_only ? frame_view.of_layer(resting_placement(scene, number))
-                                        : workspace.layer_view(number),
-             at);
-    if (undeformed || (layer == &edited && workspace.at_rest()))
-      drawing.placement = Placement::at_rest;
-    if (layer == &edited) {
-      drawing.wireframe = workspace.display.show_mesh;
-      for (const OnionSkin& skin : skins)
-        drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
+  const auto draw_layers = [&] {
+    for (const Layer* layer : drawn) {
+      RenderFrame drawing = frame;
+      if (original && !edited_only)
+        set_view(drawing, resting_view(*layer), at);
+      else
+        set_view(drawing, workspace.layer_view(layer_index(scene, layer->id)), at);
+      if (original || (layer == &edited && workspace.at_rest()))
+        drawing.placement = Placement::at_rest;
+      if (layer == &edited) {
+        drawing.wireframe = workspace.display.show_mesh;
+        for (const OnionSkin& skin : skins)
+          drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
+      }
+      draw(*layer, std::move(drawing));
     }
-    draw(*layer, std::move(drawing), canvas_ink(scene, number));
+  };
+  if (has_originals) {
+    if (combines) {
+      draw_layers();
+      compositor_->keep();
+    }
+    for (const Layer* layer : drawn) {
+      RenderFrame as_it_was = frame;
+      // That of the lowest layer is the page on which the others lie.
+      if (layer == drawn.front() || !moves_as_whole(workspace, *layer))
+        as_it_was.content = Content::original;
+      set_view(as_it_was, resting_view(*layer), at);
+      draw(*layer, as_it_was);
+    }
+    if (combines) compositor_->fill_gaps();
   }
+  draw_layers();
   if (combines) {
     const auto px = [](double value) { return static_cast<int>(value); };
     const int bottom = frame.window_height - px(frame.canvas_top) - px(frame.canvas_height),

@@ -27,6 +27,7 @@ int LayerPainter::update_picture(std::shared_ptr<const Image> picture, bool move
   }
   const bool moved = std::exchange(moves_, moves);
   picture_ = std::move(picture);
+  opaque_.reset();
   preparing_.reset();
   uploading_ = false;
   if (!picture_) return renderer_.set_picture(0, 0, nullptr);
@@ -48,6 +49,11 @@ int LayerPainter::update_picture(std::shared_ptr<const Image> picture, bool move
       },
       wake_);
   return 0;
+}
+
+bool LayerPainter::is_opaque() {
+  if (!opaque_) opaque_ = !picture_ || holomorph::is_opaque(*picture_);
+  return *opaque_;
 }
 
 bool LayerPainter::allocate_texture() {

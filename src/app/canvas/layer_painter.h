@@ -27,6 +27,8 @@ class LayerPainter {
   /// Allocates GPU memory for a prepared picture, which can take as long as a frame. Returns
   /// whether a picture was prepared.
   bool allocate_texture();
+  /// Whether the picture covers its rectangle, or there is none. Looked at once for each picture.
+  bool is_opaque();
   /// Whether the next frame will show more of the picture.
   bool is_uploading() const { return uploading_; }
   /// Whether the picture is fading to its final map.
@@ -55,7 +57,8 @@ class LayerPainter {
   bool uploading_ = false;
   int factor_ = 0;  ///< not returned yet; 0: none
   std::shared_ptr<const Image> picture_;
-  bool moves_ = false;  ///< the picture is a frame of a film
+  std::optional<bool> opaque_;  ///< none: the picture has not been looked at
+  bool moves_ = false;          ///< the picture is a frame of a film
   /// The fringe of the picture around a mesh; null while it is sought, or if there is none.
   struct FringeAnswer {
     std::mutex mutex;

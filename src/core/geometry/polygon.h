@@ -79,7 +79,7 @@ struct NearestPoint {
   double distance = 0.0;
 };
 NearestPoint nearest_on_segment(Complex a, Complex b, Complex z);
-/// Faster if `guess` is an edge that is near.
+/// Faster if `guess` is an edge that is near; that the first one is near is not worth saying.
 NearestPoint nearest_on_polygon(PolygonView polygon, Complex z, Index guess = 0);
 
 /// Two edges of a polygon that touch or cross, and a point on both.

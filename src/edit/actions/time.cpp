@@ -98,9 +98,16 @@ bool can_paste(const Workspace& w) {
                                : !fitting(w.document.scene(), w.copied_keys).empty();
 }
 void paste(Workspace& w) {
-  if (const CopiedKeys keys = fitting(w.document.scene(), w.copied_keys); !keys.empty())
-    return add_copies(w, keys);
-  w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied));
+  const CopiedKeys keys = fitting(w.document.scene(), w.copied_keys);
+  if (keys.empty()) {
+    w.commit("Paste pose", posed_as(w.shown.deformation(), *w.copied));
+    return;
+  }
+  add_copies(w, keys);
+  if (const size_t left = w.copied_keys.layers.size() - keys.layers.size(); left > 0)
+    w.messages.say("The copied keyframes of " + std::to_string(left) +
+                   (left == 1 ? " layer were left out, because they do not fit it."
+                              : " layers were left out, because they do not fit them."));
 }
 
 template <bool forwards>
@@ -273,7 +280,7 @@ std::vector<Action> time_actions() {
           .label = "Paste pose",
           .hint = "Paste the pose, or put the copied keyframes at the current time",
           .keys = {{'V', kCtrl}},
-          .needs = "Needs a copied pose or keyframe, of the same cage and pins",
+          .needs = "Needs a copied pose or keyframe that fits the cage and the pins",
           .enabled = can_paste,
           .run = paste,
       },

@@ -21,6 +21,15 @@ std::string end_of_text(const std::string& text, size_t most) {
   return text.substr(from);
 }
 
+/// The same text for names that differ in case alone. It is also the same for other names with
+/// letters beyond ASCII, whose case is not known here.
+std::string without_case(const std::string& name) {
+  std::string same = lower_case(name);
+  for (char& c : same)
+    if (c < 0) c = '?';
+  return same;
+}
+
 }  // namespace
 
 bool moves(const MovingMesh& mesh) {
@@ -47,7 +56,7 @@ std::vector<std::string> unique_names(const MovingMeshes& moving) {
     if (name.empty()) name = "layer";
     name = end_of_text(name, kLongestName);
     std::string unique = name;
-    for (int k = 2; !used.insert(lower_case(unique)).second; ++k)
+    for (int k = 2; !used.insert(without_case(unique)).second; ++k)
       unique = name + "-" + std::to_string(k);
     names.push_back(unique);
   }

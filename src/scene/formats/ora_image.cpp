@@ -79,6 +79,7 @@ struct Placed {
   FileLayer layer;
   int x = 0, y = 0;  ///< the layer's upper left corner on the canvas
   double opacity = 1;
+  bool has_below = false;  ///< there is something below its group
 };
 struct Stack {
   int width = 0, height = 0;
@@ -97,6 +98,19 @@ bool is_isolated(const pugi::xml_node& group) {
   return std::string(group.attribute("isolation").as_string()) == "isolate" ||
          group.attribute("opacity").as_double(1) < 1 ||
          std::string(group.attribute("composite-op").as_string(kNormalMode)) != kNormalMode;
+}
+
+/// Whether a layer in a group, or in groups in it, has a blending mode.
+bool blends_inside(const pugi::xml_node& group) {
+  return group.find_node([](const pugi::xml_node& node) {
+    return std::string(node.attribute("composite-op").as_string(kNormalMode)) != kNormalMode;
+  });
+}
+
+bool next_element(pugi::xml_node node) {
+  do node = node.next_sibling();
+  while (node && node.type() != pugi::node_element);
+  return !node.empty();
 }
 
 void collect(const pugi::xml_node& group, const Placed& inherited, int depth, Stack& stack) {
@@ -121,14 +135,10 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
     here.x = std::clamp(here.x + offset(node, "x"), -kFarthest, kFarthest);
     here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
     here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
-    if (is_group && is_isolated(node)) {
-      // It matters if the group lies above something with which its layers would blend.
-      const bool blends = std::ranges::any_of(node.children(), [](const pugi::xml_node& child) {
-        return std::string(child.attribute("composite-op").as_string(kNormalMode)) != kNormalMode;
-      });
-      if (blends && node.next_sibling())
-        stack.report.add(here.layer.name, "left out: the blending of the group");
-    }
+    const bool has_below = inherited.has_below || next_element(node);
+    if (is_group && has_below && is_isolated(node) && blends_inside(node))
+      stack.report.add(here.layer.name, "left out: the blending of the group");
+    here.has_below = has_below;
     if (is_group) collect(node, here, depth + 1, stack);
     if (is_group || node.type() != pugi::node_element) continue;
     here.layer.entry = node.attribute("src").as_string();
