@@ -291,21 +291,23 @@ class EditorWindowTest(WindowCase):
         content["keyframes"] = [{"time": 0, "pose": {}}, {"time": 1, "pose": {"cage": [[[y + 20, 0.8 * x]] for x, y in cage]}}]
         with open(scene, "w") as file:
             json.dump(content, file)
-        options = {"glb": ["glb"], "tscn": ["godot"], "pc2": ["pc2"], "exr": ["stmap", "--time", "0"]}
+        # Several formats have the extensions of the last two.
+        options = {"bent.glb": ["glb"], "bent.tscn": ["godot"], "bent.pc2": ["pc2"], "old.tscn": ["godot3"], "bent.exr": ["stmap", "--time", "0"]}
+        chosen = {"old.tscn": "Godot 3 scene", "bent.exr": "ST-map (OpenEXR)"}
         with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the scene")
-            for extension, words in options.items():
-                out, expected = (os.path.join(self.work, name + "/bent." + extension) for name in ("window", "command"))
+            for name, words in options.items():
+                out, expected = (os.path.join(self.work, folder, name) for folder in ("window", "command"))
                 os.makedirs(os.path.dirname(out), exist_ok=True)
                 os.makedirs(os.path.dirname(expected), exist_ok=True)
                 self.ask(editor, "ctrl+e")
                 editor.key("ctrl+a")
                 editor.type(out)
-                if extension == "exr":  # otherwise, it is a picture
+                if name in chosen:
                     editor.press_item("Format")
-                    editor.press_item("ST-map (OpenEXR)")
+                    editor.press_item(chosen[name])
                 editor.pause(0.5)
-                self.screenshot(editor, "export-" + extension)
+                self.screenshot(editor, "export-" + name)
                 editor.key("Return")
                 editor.wait(lambda s: os.path.exists(out) and not s["exporting"] and not s["asking"], "the export", 120)
                 subprocess.run([PROGRAM, "export", scene, "--format", *words, "--out", expected], check=True,

@@ -170,6 +170,53 @@ TEST_CASE("keys: turns are those between the same keys wherever keys are put") {
         Turns{0, 0, 1, 0, 2, 0, 3, 0});
 }
 
+TEST_CASE("keys: copies are pasted as they were, where they fit") {
+  Scene scene = keyed_scene({{0, 1, 2}, {1}});
+  Layer first = *scene.layers[0];
+  first.deformation.keyframes[1].turns = 2;
+  first.deformation.keyframes[1].ease = Ease::hold;
+  first.deformation.keyframes[2].turns = -1;
+  scene = with_layer_at(scene, 0, first);
+  const CopiedKeys copied = copied_keys(scene, all_keys(scene));
+  CHECK(copied.keys() == all_keys(scene));
+  CHECK(copied_keys(scene, {{1, 1}}).layers.at(1)[0].turns == 0);  // without the key before it
+
+  // What happens to the originals does not matter.
+  const Scene cut = without_keys(scene, all_keys(scene));
+  const auto pasted = with_keys_pasted(cut, fitting(cut, copied), {1, 0, 5});
+  REQUIRE(pasted);
+  CHECK(pasted->keys == KeySelection{{1, 5}, {1, 6}, {1, 7}, {2, 6}});
+  for (size_t layer = 0; layer < 2; ++layer) {
+    const auto &before = scene.layers[layer]->deformation.keyframes,
+               &after = pasted->scene.layers[layer]->deformation.keyframes;
+    REQUIRE(after.size() == before.size());
+    for (size_t k = 0; k < after.size(); ++k) {
+      CHECK(after[k].pose == before[k].pose);
+      CHECK(after[k].ease == before[k].ease);
+      CHECK(after[k].turns == before[k].turns);
+    }
+  }
+  CHECK_FALSE(with_keys_pasted(scene, copied, {1, 0, 1}));  // they would meet others
+
+  // Layers that are gone, hidden, locked or have another cage get none.
+  const auto fits_in = [&](auto change) {
+    Layer layer = *cut.layers[0];
+    change(layer);
+    const CopiedKeys left = fitting(with_layer_at(cut, 0, layer), copied);
+    CHECK(left.layers.contains(2));
+    return left.layers.contains(1);
+  };
+  CHECK(fits_in([](Layer&) {}));
+  Scene fewer = cut;
+  fewer.edited = 0;
+  CHECK_FALSE(fitting(without_layer(fewer), copied).layers.contains(1));
+  CHECK_FALSE(fits_in([](Layer& layer) { layer.visible = false; }));
+  CHECK_FALSE(fits_in([](Layer& layer) { layer.locked = true; }));
+  CHECK_FALSE(fits_in([](Layer& layer) {
+    layer.deformation = with_cage({}, {{0, 0}, {10, 0}, {5, 9}});
+  }));
+}
+
 TEST_CASE("keys: those of locked and hidden layers cannot be chosen") {
   Scene scene = keyed_scene({{0, 1}, {1}});
   Layer second = *scene.layers[1];
