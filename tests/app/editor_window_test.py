@@ -283,6 +283,26 @@ class EditorWindowTest(WindowCase):
             with open(os.path.join(self.work, "window-deep.png"), "rb") as file:
                 self.assertEqual(file.read()[24], 16)
 
+    def test_formats_with_the_same_extension_are_told_apart(self):
+        scene = self.caged((60, 40), [[5, 5], [55, 5], [55, 35], [5, 35]])
+        with Editor([scene]) as editor:
+            editor.wait(lambda s: s["cage_points"] > 0, "the scene")
+            for version, row in (("godot", None), ("godot3", "Godot 3 scene"), ("godot", "Godot 4 scene")):
+                out, expected = (os.path.join(self.work, folder, f"{version}-{bool(row)}.tscn") for folder in ("window", "command"))
+                for path in (out, expected):
+                    os.makedirs(os.path.dirname(path), exist_ok=True)
+                self.ask(editor, "ctrl+e")
+                editor.key("ctrl+a")
+                editor.type(out)
+                if row:
+                    editor.press_item("Format")
+                    editor.press_item(row)
+                editor.key("Return")
+                editor.wait(lambda s: os.path.exists(out) and not s["exporting"] and not s["asking"], "the export", 60)
+                subprocess.run([PROGRAM, "export", scene, "--format", version, "--out", expected], check=True, stderr=subprocess.DEVNULL)
+                with open(out) as ours, open(expected) as theirs:
+                    self.assertEqual(ours.read(), theirs.read(), (version, row))
+
     def test_meshes_and_st_maps_from_the_dialog_have_the_bits_of_the_command(self):
         cage = [[20, 20], [280, 20], [280, 180], [20, 180]]
         scene = self.caged((300, 200), cage)
@@ -291,9 +311,8 @@ class EditorWindowTest(WindowCase):
         content["keyframes"] = [{"time": 0, "pose": {}}, {"time": 1, "pose": {"cage": [[[y + 20, 0.8 * x]] for x, y in cage]}}]
         with open(scene, "w") as file:
             json.dump(content, file)
-        # Several formats have the extensions of the last two.
-        options = {"bent.glb": ["glb"], "bent.tscn": ["godot"], "bent.pc2": ["pc2"], "old.tscn": ["godot3"], "bent.exr": ["stmap", "--time", "0"]}
-        chosen = {"old.tscn": "Godot 3 scene", "bent.exr": "ST-map (OpenEXR)"}
+        options = {"bent.glb": ["glb"], "bent.tscn": ["godot"], "bent.pc2": ["pc2"], "bent.exr": ["stmap", "--time", "0"]}
+        chosen = {"bent.exr": "ST-map (OpenEXR)"}  # otherwise, it is a picture
         with Editor([scene]) as editor:
             editor.wait(lambda s: s["cage_points"] > 0, "the scene")
             for name, words in options.items():
