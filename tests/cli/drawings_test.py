@@ -381,13 +381,15 @@ class Drawings(Case):
                 Image.fromarray(pixels, "RGBA").save(self.path(f"{i}.png"))
                 layers.append({"image": {"file": f"{i}.png"}, "cage": {"rest": []}, "clipped": i > 0,
                                "opacity": 1 if i == 0 else self.chance.choice([1, 0.6]),
-                               "blending": "normal" if i == 0 else self.chance.choice(["multiply", "screen", "overlay"])})
+                               "blending": "normal" if i == 0 else self.chance.choice(["normal", "multiply", "screen", "overlay"])})
             background = self.chance.choice([{}, {"background": "#ffffff"}, {"background": "#204060"}])
             path = self.write("soft.json", {"format": "holomorph", "version": 2, "layers": layers, **background})
             svg, _ = self.exported(path)
             self.good("render", path, "--out", self.path("soft.png"), "--force")
             ours, theirs = premultiplied(Image.open(self.path("soft.png"))), premultiplied(self.drawn(svg))
             self.assertLess(numpy.abs(ours - theirs).max(), 4, [layer["blending"] for layer in layers])
+            if background == {}:  # the alpha is that of the base
+                self.assertLess(numpy.abs(theirs[..., 3] - numpy.asarray(Image.open(self.path("0.png")))[..., 3]).max(), 2)
 
     def test_motions_show_the_moment(self):
         w, h = 1100, 900

@@ -1,6 +1,5 @@
-// A base and the layers that are clipped to it form a group. The mask of those layers is a white
-// copy of the base. If one of them has a blending mode, they are blended with an opaque copy of the
-// base, and the mask is that of the group.
+// A base and the layers that are clipped to it form a group. They are drawn on an opaque copy of
+// the base, and the mask of the group is a white copy of it.
 #include "scene/formats/svg_writer.h"
 
 #include <algorithm>
@@ -118,17 +117,11 @@ std::string encode_svg(const LayeredPicture& picture) {
     } else {
       const std::string base = "base-" + std::to_string(i);
       const std::string mask = " mask=\"url(#mask-" + base + ")\"";
-      const bool blends = std::any_of(
-          layers.begin() + static_cast<long>(i) + 1, layers.begin() + static_cast<long>(end),
-          [](const DrawnLayer& layer) { return layer.blending != Blending::normal; });
-      const std::string content = "<g id=\"" + base + "\">" + content_of(layers[i]) + "</g>";
-      svg += mask_of(base, everywhere) +
-             (blends ? "<g" + mask + "><g filter=\"url(#opaque)\">" + content + "</g>" : content) +
-             "\n";
+      svg += mask_of(base, everywhere) + "<g" + mask + "><g filter=\"url(#opaque)\"><g id=\"" +
+             base + "\">" + content_of(layers[i]) + "</g></g>\n";
       for (size_t k = i + 1; k < end; ++k)
-        svg += named_group(layers[k]) + (blends ? "" : mask) + ink_of(layers[k]) + ">" +
-               content_of(layers[k]) + "</g>\n";
-      if (blends) svg += "</g>\n";
+        svg += named_group(layers[k]) + ink_of(layers[k]) + ">" + content_of(layers[k]) + "</g>\n";
+      svg += "</g>\n";
     }
     svg += "</g>\n";
     i = end;
