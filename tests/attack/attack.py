@@ -78,6 +78,25 @@ def run(command, folder, most_seconds=20, patience=240, address_space=12 << 30):
                        said.read(4000).decode(errors="replace"), bool(hung))
 
 
+class Tally:
+    """What the runs of an attack used, and which of them were bad."""
+
+    def __init__(self, most_seconds, most_megabytes):
+        self.limits = most_seconds, most_megabytes
+        self.bad, self.statuses, self.peak, self.slowest = [], {}, 0, 0
+
+    def add(self, title, outcome):
+        """Returns whether the run was bad."""
+        self.statuses[outcome.status] = self.statuses.get(outcome.status, 0) + 1
+        self.peak, self.slowest = max(self.peak, outcome.megabytes), max(self.slowest, outcome.seconds)
+        if wrong := outcome.wrong(*self.limits):
+            self.bad.append(f"{title}: {wrong}")
+        return bool(wrong)
+
+    def finish(self, name, line):
+        finish(name, f"{line}, statuses {self.statuses}, {len(self.bad)} bad, at most {self.peak} MB and {self.slowest:.1f} s", self.bad)
+
+
 def finish(name, line, bad):
     for each in bad[:20]:
         print("bad:", each)

@@ -62,7 +62,7 @@ shutil.copytree(assets, folder, dirs_exist_ok=True)
 samples = [json.load(open(os.path.join(assets, name))) for name in sorted(os.listdir(assets)) if name.endswith(".json")]
 with open(os.path.join(folder, "p.csv"), "w") as file:
     file.write("x,y\n500,350\n0,0\n1e8,-1e8\n")
-bad, statuses, peak, slowest = [], {}, 0, 0
+tally = attack.Tally(MOST_SECONDS, MOST_MEGABYTES)
 for number in range(options.runs):
     scene = json.loads(json.dumps(rng.choice(samples)))
     for _ in range(rng.randint(1, 4)):
@@ -71,12 +71,8 @@ for number in range(options.runs):
         json.dump(scene, file)
     command, *words = rng.choice(COMMANDS)
     outcome = attack.run([options.program, command, "m.json", *words], folder, MOST_SECONDS)
-    statuses[outcome.status] = statuses.get(outcome.status, 0) + 1
-    peak, slowest = max(peak, outcome.megabytes), max(slowest, outcome.seconds)
-    if wrong := outcome.wrong(MOST_SECONDS, MOST_MEGABYTES):
-        bad.append(f"scene {number}, {command} {' '.join(words)}: {wrong}")
-        if options.keep:
-            os.makedirs(options.keep, exist_ok=True)
-            shutil.copy(os.path.join(folder, "m.json"), os.path.join(options.keep, f"{options.seed}-{number}.json"))
+    if tally.add(f"scene {number}, {command} {' '.join(words)}", outcome) and options.keep:
+        os.makedirs(options.keep, exist_ok=True)
+        shutil.copy(os.path.join(folder, "m.json"), os.path.join(options.keep, f"{options.seed}-{number}.json"))
 shutil.rmtree(folder)
-attack.finish("mutate", f"seed {options.seed}, {options.runs} scenes, statuses {statuses}, {len(bad)} bad, at most {peak} MB and {slowest:.1f} s", bad)
+tally.finish("mutate", f"seed {options.seed}, {options.runs} scenes")

@@ -181,7 +181,7 @@ def commands(name, extension):
 
 
 files = seeds()
-bad, statuses, peak, slowest = [], {}, 0, 0
+tally = attack.Tally(MOST_SECONDS, MOST_MEGABYTES)
 for number in range(options.runs):
     extension = sorted(files)[number % len(files)]
     name = "m" + extension
@@ -189,14 +189,10 @@ for number in range(options.runs):
         file.write(changed(rng.choice(files[extension]), extension))
     for words in commands(name, extension):
         outcome = attack.run([options.program, *words], folder, MOST_SECONDS)
-        statuses[outcome.status] = statuses.get(outcome.status, 0) + 1
-        peak, slowest = max(peak, outcome.megabytes), max(slowest, outcome.seconds)
-        if wrong := outcome.wrong(MOST_SECONDS, MOST_MEGABYTES):
-            bad.append(f"file {number}, {' '.join(words)}: {wrong}")
-            if options.keep:
-                os.makedirs(options.keep, exist_ok=True)
-                shutil.copy(place(name), os.path.join(options.keep, f"{options.seed}-{number}{extension}"))
+        if tally.add(f"file {number}, {' '.join(words)}", outcome) and options.keep:
+            os.makedirs(options.keep, exist_ok=True)
+            shutil.copy(place(name), os.path.join(options.keep, f"{options.seed}-{number}{extension}"))
         if outcome.status:
             break
 shutil.rmtree(folder)
-attack.finish("mutate_files", f"seed {options.seed}, {options.runs} files, statuses {statuses}, {len(bad)} bad, at most {peak} MB and {slowest:.1f} s", bad)
+tally.finish("mutate_files", f"seed {options.seed}, {options.runs} files")
