@@ -27,8 +27,6 @@ DrawnLayer on_canvas(const RasterResult& drawn, const RasterResult& canvas, doub
   return layer;
 }
 
-constexpr const char* kLayerPrefix = "layer-";
-
 /// Draws the layers of a scene on the canvas of their merged picture.
 class LayerDrawer {
  public:
@@ -49,7 +47,9 @@ class LayerDrawer {
     const Layer& it = *scene_.layers[i];
     std::optional<DrawnLayer> drawn;
     if (const auto text = drawings_.drawing(it)) {
-      drawn = of_drawing(i, *text, kLayerPrefix, true, maker_.placement(i, options_.time));
+      std::vector<std::string> losses;
+      drawn = of_drawing(i, *text, "layer-", true, maker_.placement(i, options_.time), losses);
+      for (const std::string& loss : losses) losses_.push_back(drawn->name + ": " + loss);
     } else if (const auto pixels = maker_.layer(i, options_)) {
       drawn = on_canvas(*pixels, canvas_, options_.scale, title_of_layer(scene_, i));
     }
@@ -80,9 +80,10 @@ class LayerDrawer {
       if (!maker_.draws(i)) continue;
       const auto text = drawings_.drawing(*scene_.layers[i]);
       std::optional<DrawnLayer> drawn;
+      std::vector<std::string> same;  // as those of the layer
       if (text)
         drawn = of_drawing(i, *text, "original-", maker_.moves_as_whole(i, options_.time),
-                           resting_placement(scene_, i));
+                           resting_placement(scene_, i), same);
       else if (const auto pixels = maker_.original(i, options_))
         drawn = on_canvas(*pixels, canvas_, options_.scale, "");
       if (!drawn) continue;
@@ -107,7 +108,7 @@ class LayerDrawer {
 
  private:
   DrawnLayer of_drawing(size_t i, const std::string& text, const std::string& prefix, bool bent,
-                        const Similarity& placement) {
+                        const Similarity& placement, std::vector<std::string>& losses) {
     const Layer& it = *scene_.layers[i];
     const Picture* picture = drawings_.find(*it.image);
     const SourceDrawing source{text, it.image->file, *picture->image};
@@ -117,12 +118,9 @@ class LayerDrawer {
                              prefix + std::to_string(i + 1) + "-"};
     DrawnLayer drawn;
     drawn.name = title_of_layer(scene_, i);
-    std::vector<std::string> losses;
     drawn.drawing = bent ? layer_drawing(source, it.deformation, scene_.animation.linear_blend,
                                          options_.time, place, losses, keep_going_)
                          : placed_drawing(source, place, losses);
-    if (prefix == kLayerPrefix)
-      for (const std::string& loss : losses) losses_.push_back(drawn.name + ": " + loss);
     return drawn;
   }
 

@@ -43,7 +43,7 @@ class PictureMaker::LayerMaker {
       page_ = image && image->width > 0 && image->height > 0 ? image->page() : picture.page();
     source_ = &picture;
     footage_.reset();
-    fringe_.reset();
+    forget_pixels();
   }
 
   /// Shows the frame of the layer's film at a time, if the layer has one; without a time, the
@@ -51,7 +51,7 @@ class PictureMaker::LayerMaker {
   void show_frame(const std::optional<double>& time) {
     if (!footage_) return;
     if (!time) {
-      if (source_ != given_) fringe_.reset();
+      if (source_ != given_) forget_pixels();
       source_ = given_;
       frame_.reset();
       return;
@@ -60,7 +60,7 @@ class PictureMaker::LayerMaker {
     if (frame == frame_) return;
     frame_ = std::move(frame);
     source_ = frame_.get();
-    fringe_.reset();
+    forget_pixels();
   }
 
   const Image* source() const { return source_; }
@@ -116,7 +116,10 @@ class PictureMaker::LayerMaker {
     return holomorph::moves_as_whole(deformation_, source_->box(), *prepared_->mesh, as_span(f));
   }
   /// Whether the undeformed picture covers its rectangle.
-  bool is_opaque() const { return source_ && holomorph::is_opaque(*source_); }
+  bool is_opaque() {
+    if (!opaque_) opaque_ = source_ && holomorph::is_opaque(*source_);
+    return *opaque_;
+  }
 
   /// How the layer moves what is attached to it.
   Similarity motion(const std::optional<double>& time, const Attachment& attachment) {
@@ -232,6 +235,12 @@ class PictureMaker::LayerMaker {
     return fringe_of(*prepared_->mesh, resized.image);
   }
 
+  /// Another picture is shown.
+  void forget_pixels() {
+    fringe_.reset();
+    opaque_.reset();
+  }
+
   /// Whether the picture is shown in place of one with another page, which it then fills.
   bool is_resized() const { return source_ && source_->page() != page_; }
 
@@ -246,6 +255,7 @@ class PictureMaker::LayerMaker {
   std::shared_ptr<PreparedMap> prepared_;
   std::shared_ptr<const Mesh> drawn_;
   std::optional<std::shared_ptr<const Fringe>> fringe_;  ///< null: there is none
+  std::optional<bool> opaque_;
   Motion motion_;
   std::map<std::optional<double>, VectorXc> positions_;  ///< by time
   std::optional<double> newest_;                         ///< the time that was added last
@@ -310,7 +320,7 @@ std::optional<RasterResult> PictureMaker::original(size_t number, const PictureO
                                               : layer.original(frame_of(options), placement);
 }
 
-bool PictureMaker::has_opaque_originals() const {
+bool PictureMaker::has_opaque_originals() {
   for (size_t i = 0; i < layers_.size(); ++i)
     if (draws(i) && (is_blended(*scene_.layers[i]) || !layers_[i]->is_opaque() ||
                      !is_identity(resting_placement(scene_, i))))

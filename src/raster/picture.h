@@ -55,7 +55,7 @@ class PictureMaker {
   /// are none.
   std::optional<RasterResult> originals(const PictureOptions& options);
   /// Whether originals cover what they fill, so that they lie whole behind the layers.
-  bool has_opaque_originals() const;
+  bool has_opaque_originals();
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
   /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
   /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between
