@@ -12,7 +12,6 @@
 #include "scene/attachments.h"
 #include "scene/fringe.h"
 #include "scene/layers.h"
-#include "scene/original.h"
 
 namespace holomorph {
 namespace {
@@ -61,10 +60,8 @@ bool is_settled(const Workspace& workspace) {
          });
 }
 
-RasterResult combined(const std::vector<LayerSnapshot>& layers, const Box& box, double scale,
-                      std::optional<RasterResult> background = {}) {
+RasterResult combined(const std::vector<LayerSnapshot>& layers, const Box& box, double scale) {
   Composition all(scale);
-  if (background) all.add(std::move(*background));
   for (const LayerSnapshot& layer : layers) {
     RasterJob job;
     job.mesh = layer.mesh.get();
@@ -93,9 +90,12 @@ LastPicture picture_of(const std::vector<LayerSnapshot>& layers,
   }
   const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
   RasterResult result = combined(layers, box, scale);
-  if (!originals.empty())
-    result = combined(layers, box, scale,
-                      gaps_filled_by(combined(originals, box, scale), result, scale));
+  if (!originals.empty()) {
+    Composition all(scale);
+    all.add(gaps_filled_by(combined(originals, box, scale), result, scale));
+    all.add(std::move(result));
+    result = std::move(all).result();
+  }
   LastPicture picture;
   picture.box.include(result.corner);
   picture.box.include(result.corner + Complex(result.image.width, result.image.height) / scale);
@@ -147,6 +147,7 @@ void LastPictureView::keep(const Workspace& workspace) {
   kept_hash_ = workspace.document.file_hash();
   std::vector<LayerSnapshot> layers, originals;
   const Scene& scene = workspace.document.scene();
+  size_t lowest = 0;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     const auto picture = workspace.document.pictures().shared(layer);
@@ -158,11 +159,8 @@ void LastPictureView::keep(const Workspace& workspace) {
     const LayerSnapshot posed{bent ? map.drawn() : nullptr, bent ? map.map().f : VectorXc(),
                               picture, workspace.placement(i), ink_of(scene, i)};
     layers.push_back(posed);
-    const bool is_placed =
-        bent && layers.size() > 1 &&
-        moves_as_whole(layer.deformation, picture->box(), *posed.mesh, as_span(posed.f));
-    originals.push_back(is_placed ? posed : LayerSnapshot{nullptr, {}, picture, {}, posed.ink});
-    originals.back().placement = resting_placement(scene, i);
+    if (layers.size() == 1) lowest = i;
+    originals.push_back({nullptr, {}, picture, workspace.original_placement(i, lowest), posed.ink});
   }
   if (scene.background.fill != Background::Fill::original) originals.clear();
   if (layers.empty()) return;

@@ -180,8 +180,9 @@ std::string exported(const LoadedScene& loaded, const ExportCommand& command) {
 /// Such as "; 2 are drawings"; empty for formats of pixels.
 std::string drawings_text(const LayeredPicture& picture, const LayeredFormat& format) {
   if (!format.keeps_drawings) return "";
-  const auto count = std::ranges::count_if(
-      picture.layers, [](const DrawnLayer& layer) { return !layer.drawing.empty(); });
+  const auto is_drawing = [](const DrawnLayer& layer) { return !layer.drawing.empty(); };
+  const auto count = std::ranges::count_if(picture.layers, is_drawing) +
+                     std::ranges::count_if(picture.originals, is_drawing);
   return "; " + (count == 0 ? "none" : std::to_string(count)) +
          (count == 1 ? " is a drawing" : " are drawings");
 }
@@ -204,9 +205,10 @@ void export_layers(const LoadedScene& loaded, const ExportCommand& command,
   write_result(command.out, bytes);
   for (const std::string& loss : picture.losses)
     std::fprintf(stderr, "holomorph: %s\n", printable(loss).c_str());
+  const size_t count = picture.originals.size() + picture.layers.size();
   std::fprintf(stderr, "%s: %zu layer%s of %d x %d pixels%s\n", shown_output(command.out).c_str(),
-               picture.layers.size(), picture.layers.size() == 1 ? "" : "s", picture.merged.width,
-               picture.merged.height, drawings_text(picture, format).c_str());
+               count, count == 1 ? "" : "s", picture.merged.width, picture.merged.height,
+               drawings_text(picture, format).c_str());
 }
 
 /// Throws Error if the name of the file says that it has another format.

@@ -13,7 +13,7 @@ namespace holomorph {
 namespace {
 
 /// Where the picture of a scene goes if `out` is a folder, or a name in which * stands for the name
-/// of the scene.
+/// of the scene. Without an extension, it is a PNG.
 Path picture_path(const Path& out, const Path& scene) {
   std::error_code ignored;
   if (is_standard(out)) return out;
@@ -25,6 +25,7 @@ Path picture_path(const Path& out, const Path& scene) {
     throw Error(ErrorKind::bad_input,
                 "standard input has no name after which its picture could be named; give a file "
                 "name with --out");
+  if (!pattern.has_extension()) name += ".png";
   return Path(pattern).replace_filename(name.replace(star, 1, scene.stem().string()));
 }
 

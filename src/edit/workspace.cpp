@@ -6,6 +6,7 @@
 
 #include "core/geometry/polyline.h"
 #include "scene/check_scene.h"
+#include "scene/original.h"
 
 namespace holomorph {
 namespace {
@@ -142,6 +143,17 @@ bool Workspace::require_open_layer() {
                      : "The layer is hidden. Show it with " + actions.key_of("layer.visible") +
                            ".");
   return !layer.locked && layer.visible;
+}
+
+Similarity Workspace::original_placement(size_t layer, size_t lowest) const {
+  const Scene& scene = document.scene();
+  return holomorph::original_placement(scene, layer, lowest, [&](size_t i) {
+    const Layer& it = *scene.layers[i];
+    const LiveMap& map = maps.of(it.id);
+    const auto picture = document.pictures().shared(it);
+    if (!picture || !map.has_map()) return Similarity{};
+    return placing_motion(it.deformation, picture->box(), *map.drawn(), as_span(map.map().f));
+  });
 }
 
 bool Workspace::require_placements() {

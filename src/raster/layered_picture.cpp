@@ -69,7 +69,7 @@ class LayerDrawer {
     const bool any = std::ranges::any_of(scene_.layers, [&](const SharedLayer& layer) {
       return drawings_.drawing(*layer) != nullptr;
     });
-    if (!any || !maker_.has_opaque_originals()) {
+    if (!any || !maker_.has_opaque_originals(options_.time)) {
       const auto original = maker_.originals(options_);
       if (!original) return all;
       all.push_back(on_canvas(*original, canvas_, options_.scale, "Original"));
@@ -82,15 +82,12 @@ class LayerDrawer {
       std::optional<DrawnLayer> drawn;
       std::vector<std::string> same;  // as those of the layer
       if (text)
-        drawn = of_drawing(i, *text, "original-", maker_.moves_as_whole(i, options_.time),
-                           resting_placement(scene_, i), same);
+        drawn = of_drawing(i, *text, "original-", false,
+                           maker_.original_placement(i, options_.time), same);
       else if (const auto pixels = maker_.original(i, options_))
         drawn = on_canvas(*pixels, canvas_, options_.scale, "");
       if (!drawn) continue;
       drawn->name = "Original of " + title_of_layer(scene_, i);
-      drawn->opacity = scene_.layers[i]->opacity;
-      drawn->blending = scene_.layers[i]->blending;
-      drawn->clipped = clip_base(scene_, i).has_value();
       all.push_back(std::move(*drawn));
     }
     return all;
@@ -148,7 +145,7 @@ LayeredPicture layered_picture_of(const Scene& scene, const Image* source,
   if (scene.background.fill == Background::Fill::color) picture.background = scene.background.color;
   LayerDrawer drawer(scene, options, maker, canvas, keeps_drawings ? other_pictures : Pictures(),
                      keeps_drawings, keep_going);
-  if (scene.background.fill == Background::Fill::original) picture.layers = drawer.originals();
+  if (scene.background.fill == Background::Fill::original) picture.originals = drawer.originals();
   std::set<size_t> added_layers;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const std::optional<size_t> base = clip_base(scene, i);

@@ -18,6 +18,17 @@
 
 namespace holomorph {
 
+namespace {
+
+/// Adds the corners of a box that was moved.
+void add_corners(VectorXc& points, const Box& box, const Similarity& moved) {
+  const Index count = points.size();
+  points.conservativeResize(count + 4);
+  std::ranges::transform(box.corners(), points.begin() + count, moved);
+}
+
+}  // namespace
+
 RasterResult picture_of(const Scene& scene, const Image* source, const PictureOptions& options,
                         const Pictures& other_pictures) {
   return PictureMaker(scene, source, other_pictures).picture(options);
@@ -110,10 +121,11 @@ class PictureMaker::LayerMaker {
     job.placement = placement;
     return rasterized(job);
   }
-  bool moves_as_whole(const std::optional<double>& time) {
-    if (!source_ || !deformation_.has_cage() || is_resized()) return false;
+  Similarity placing_motion(const std::optional<double>& time) {
+    if (!source_ || !deformation_.has_cage()) return {};
     const VectorXc& f = positions_at(time);
-    return holomorph::moves_as_whole(deformation_, source_->box(), *prepared_->mesh, as_span(f));
+    return holomorph::placing_motion(deformation_, is_resized() ? page_ : source_->box(),
+                                     *prepared_->mesh, as_span(f));
   }
   /// Whether the undeformed picture covers its rectangle.
   bool is_opaque() {
@@ -159,11 +171,8 @@ class PictureMaker::LayerMaker {
       points.conservativeResize(count + static_cast<Index>(around.size()));
       std::ranges::copy(around, points.begin() + count);
     }
-    if (!with_picture || !source_) return points;
-    const Index count = points.size();
-    points.conservativeResize(count + 4);
-    const Box box = is_resized() ? page_ : source_->box();
-    std::ranges::copy(box.corners(), points.begin() + count);
+    if (with_picture && source_)
+      add_corners(points, is_resized() ? page_ : source_->box(), Similarity{});
     return points;
   }
   void include_page(Box& box, const Similarity& placement) const {
@@ -306,48 +315,47 @@ std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOpti
   return layers_[number]->picture(frame, placement(number, options.time));
 }
 
-bool PictureMaker::moves_as_whole(size_t number, const std::optional<double>& time) {
-  bool is_lowest = true;
-  for (size_t i = 0; i < number; ++i) is_lowest = is_lowest && !draws(i);
-  return !is_lowest && layers_[number]->moves_as_whole(time);
-}
-
 std::optional<RasterResult> PictureMaker::original(size_t number, const PictureOptions& options) {
   LayerMaker& layer = *layers_[number];
   if (!layer.source()) return {};
-  const Similarity placement = resting_placement(scene_, number);
-  return moves_as_whole(number, options.time) ? layer.picture(frame_of(options), placement)
-                                              : layer.original(frame_of(options), placement);
+  return layer.original(frame_of(options), original_placement(number, options.time));
 }
 
-bool PictureMaker::has_opaque_originals() {
+bool PictureMaker::has_opaque_originals(const std::optional<double>& time) {
   for (size_t i = 0; i < layers_.size(); ++i)
     if (draws(i) && (is_blended(*scene_.layers[i]) || !layers_[i]->is_opaque() ||
-                     !is_identity(resting_placement(scene_, i))))
+                     !is_identity(original_placement(i, time))))
       return false;
   return true;
 }
 
-void PictureMaker::add_posed(Composition& all, const PictureOptions& options) {
+std::optional<RasterResult> PictureMaker::posed(const PictureOptions& options) {
   const Frame frame = frame_of(options);
+  Composition all(options.scale);
   for (size_t i = 0; i < layers_.size(); ++i)
     if (draws(i))
       all.add(layers_[i]->picture(frame, placement(i, options.time)), ink_of(scene_, i));
+  if (all.empty()) return {};
+  return std::move(all).result();
 }
 
 std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) {
+  const auto posed = this->posed(options);
+  return posed ? originals_behind(*posed, options) : std::nullopt;
+}
+
+std::optional<RasterResult> PictureMaker::originals_behind(const RasterResult& posed,
+                                                           const PictureOptions& options) {
   Composition all(options.scale);
   for (size_t i = 0; i < layers_.size(); ++i)
     if (auto drawn = draws(i) ? original(i, options) : std::nullopt)
       all.add(std::move(*drawn), ink_of(scene_, i));
   if (all.empty()) return {};
   RasterResult background = std::move(all).result();
-  if (has_opaque_originals()) return background;
-  Composition posed(options.scale);
-  add_posed(posed, options);
-  background = gaps_filled_by(std::move(background), std::move(posed).result(), options.scale);
+  if (has_opaque_originals(options.time)) return background;
+  background = gaps_filled_by(std::move(background), posed, options.scale);
   if (filled_range(background.image).empty()) return {};
-  return background;
+  return cropped_to_filled(std::move(background), options.scale);
 }
 
 RasterResult PictureMaker::picture(const PictureOptions& options) {
@@ -356,12 +364,12 @@ RasterResult PictureMaker::picture(const PictureOptions& options) {
   if (options.view != View::image)
     return layers_[scene_.edited]->picture(frame_of(options),
                                            placement(scene_.edited, options.time));
+  std::optional<RasterResult> posed = this->posed(options);
+  if (!posed) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
   Composition all(options.scale);
   if (scene_.background.fill == Background::Fill::original)
-    if (auto original = originals(options)) all.add(std::move(*original));
-  add_posed(all, options);
-  if (all.empty())
-    throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
+    if (auto originals = originals_behind(*posed, options)) all.add(std::move(*originals));
+  all.add(std::move(*posed));
   RasterResult result = std::move(all).result();
   if (options.crops_to_filled) result = cropped_to_filled(std::move(result), options.scale);
   if (scene_.background.fill == Background::Fill::color)
@@ -380,6 +388,13 @@ Similarity PictureMaker::placement(size_t layer, const std::optional<double>& ti
     const Layer& it = *scene_.layers[child];
     return layers_[*parent_of(scene_, it)]->motion(time, *it.attachment);
   });
+}
+
+Similarity PictureMaker::original_placement(size_t layer, const std::optional<double>& time) {
+  size_t lowest = 0;
+  while (lowest < layer && !draws(lowest)) ++lowest;
+  return holomorph::original_placement(scene_, layer, lowest,
+                                       [&](size_t i) { return layers_[i]->placing_motion(time); });
 }
 
 /// The parts of a layer's motion: between the keys of the layer itself and of those that carry it.
@@ -417,7 +432,6 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
   for (size_t i = 0; i < layers_.size(); ++i) {
     if (!layers_[i]->visible()) continue;
     if (!is_moved(i)) layers_[i]->include_page(box, {});
-    if (has_originals) layers_[i]->include_page(box, resting_placement(scene_, i));
   }
   for (size_t i = 0; i < layers_.size(); ++i) {
     LayerMaker& layer = *layers_[i];
@@ -425,9 +439,12 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
     const bool is_placed = is_moved(i);
     const auto points_at = [&](double time) {
       VectorXc points = layer.extent_at(time, is_placed);
-      if (!is_placed) return points;
-      const Similarity placed = placement(i, time);
-      for (Complex& z : points) z = placed(z);
+      if (is_placed) {
+        const Similarity placed = placement(i, time);
+        for (Complex& z : points) z = placed(z);
+      }
+      if (has_originals && layer.source())
+        add_corners(points, layer.page(), original_placement(i, time));
       return points;
     };
     if (!include_motion(box, points_at, motion_parts(i), keep_going)) return {};

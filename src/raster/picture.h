@@ -46,16 +46,13 @@ class PictureMaker {
   /// Shows another picture, of any size, in the rectangle of the edited layer's picture, and stops
   /// its film. It must stay alive until the next call.
   void show(const Image& picture);
-  /// Whether the original of a layer is where the layer is, because it is moved as a whole. That of
-  /// the lowest visible layer stays: it is the page on which the others lie.
-  bool moves_as_whole(size_t number, const std::optional<double>& time);
   /// A layer as it is before bending; none if it has no picture.
   std::optional<RasterResult> original(size_t number, const PictureOptions& options);
   /// What fills the gaps of the picture where the visible layers were before bending; none if there
   /// are none.
   std::optional<RasterResult> originals(const PictureOptions& options);
   /// Whether originals cover what they fill, so that they lie whole behind the layers.
-  bool has_opaque_originals();
+  bool has_opaque_originals(const std::optional<double>& time);
   /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
   /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
   /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between
@@ -68,6 +65,8 @@ class PictureMaker {
   bool draws(size_t layer) const;
   /// Where the plane of a layer lies in the scene's plane.
   Similarity placement(size_t layer, const std::optional<double>& time);
+  /// The same for its undeformed picture.
+  Similarity original_placement(size_t layer, const std::optional<double>& time);
 
  private:
   class LayerMaker;
@@ -78,8 +77,11 @@ class PictureMaker {
     std::optional<Box> stage = {};  ///< as in RasterJob
   };
   Frame frame_of(const PictureOptions& options) const;
-  /// Adds the visible layers.
-  void add_posed(Composition& all, const PictureOptions& options);
+  /// The visible layers together; none if there are none.
+  std::optional<RasterResult> posed(const PictureOptions& options);
+  /// What fills the gaps of the posed layers.
+  std::optional<RasterResult> originals_behind(const RasterResult& posed,
+                                               const PictureOptions& options);
   std::vector<MotionPart> motion_parts(size_t layer);
 
   const Scene& scene_;

@@ -120,6 +120,7 @@ void Compositor::keep() {
 void Compositor::fill_gaps() {
   end_base();
   blend(under_, kept_, {.blending = -2});
+  blend(under_, kept_, {});
 }
 
 void Compositor::finish(int left, int bottom, int width, int height) {

@@ -34,8 +34,8 @@ class Compositor {
   void end_layer(const Ink& ink);
   /// Keeps the result, and starts again with nothing.
   void keep();
-  /// Leaves only what fills the gaps of the result that was kept: together, they have the larger
-  /// alpha of the two.
+  /// Leaves only what fills the gaps of the result that was kept, and puts that over it: together,
+  /// they have the larger alpha of the two.
   void fill_gaps();
   /// Draws the result over the window's content, within this rectangle in framebuffer px with its
   /// origin at the lower left.

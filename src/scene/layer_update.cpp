@@ -284,12 +284,13 @@ void LayerUpdate::apply(Layer& layer, const PixelPosition& carried) const {
   image.width = width;
   image.height = height;
   image.moved = {image.moved.x + moved.x, image.moved.y + moved.y};
-  // What moves together with its parent is only carried.
-  if (moved != carried) {
-    const auto translation = [](int x, int y) { return Similarity{1, 0, Complex(x, y)}; };
-    layer.placement = composed(translation(-carried.x, -carried.y),
-                               composed(layer.placement, translation(moved.x, moved.y)));
-  }
+  const auto translation = [](int x, int y) { return Similarity{1, 0, Complex(x, y)}; };
+  const Similarity by = translation(moved.x - carried.x, moved.y - carried.y);
+  // What its parent carries moves by the rest, in its own directions and size. What did not move in
+  // the file stays where it is in the scene.
+  if (moved != carried)
+    layer.placement =
+        moved == PixelPosition{} ? composed(by, layer.placement) : composed(layer.placement, by);
   if (!is_lost(image) && !is_unclear(image)) {
     if (before != entry) image.sha256.clear();  // the mark is that of another layer or file
     return;

@@ -28,20 +28,21 @@ bool is_box(const Cage& cage, const Box& box) {
 
 }  // namespace
 
-Similarity resting_placement(const Scene& scene, size_t layer) {
-  return placement_of(scene, layer, [](size_t) { return Similarity{}; });
-}
-
-bool moves_as_whole(const Deformation& deformation, const Box& picture, const Mesh& mesh,
-                    std::span<const Complex> positions) {
+Similarity placing_motion(const Deformation& deformation, const Box& picture, const Mesh& mesh,
+                          std::span<const Complex> positions) {
   if (!deformation.has_cage() || !is_box(deformation.rest, picture) ||
       positions.size() != mesh.vertices.size())
-    return false;
-  const Similarity similarity = similarity_between(mesh.vertices, positions);
-  const double near = kExact * std::abs(similarity.factor) * picture.diagonal();
-  for (size_t v = 0; v < positions.size(); ++v)
-    if (std::abs(similarity(mesh.vertices[v]) - positions[v]) > near) return false;
-  return true;
+    return {};
+  return similarity_between(mesh.vertices, positions);
+}
+
+Similarity original_placement(const Scene& scene, size_t layer, size_t lowest,
+                              const std::function<Similarity(size_t layer)>& motion) {
+  const auto moved = [&](size_t i) { return i == lowest ? Similarity{} : motion(i); };
+  const Similarity placement = placement_of(
+      scene, layer, [&](size_t child) { return moved(*parent_of(scene, *scene.layers[child])); });
+  const Similarity own = moved(layer);
+  return is_identity(own) ? placement : composed(placement, own);
 }
 
 }  // namespace holomorph

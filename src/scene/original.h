@@ -1,6 +1,7 @@
 // The background that shows the pictures as they were before they were bent.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "core/types.h"
@@ -12,14 +13,17 @@ struct Mesh;
 struct Scene;
 struct Similarity;
 
-/// Where the undeformed picture of a layer lies in the scene: where the layer was placed, on layers
-/// that are not bent either.
-Similarity resting_placement(const Scene& scene, size_t layer);
+/// How a map places a picture: if its cage is the picture's box, the similarity that best matches
+/// the positions of the mesh's vertices; otherwise the identity. So a picture that is moved, turned
+/// and scaled as a whole leaves no second one behind, and one that is then bent only fills its
+/// gaps.
+Similarity placing_motion(const Deformation& deformation, const Box& picture, const Mesh& mesh,
+                          std::span<const Complex> positions);
 
-/// Whether a map moves, turns or scales a picture as a whole: the cage is the picture's box, and
-/// the positions are those of a similarity. Such a picture is placed and not bent, so that its
-/// original is where it is.
-bool moves_as_whole(const Deformation& deformation, const Box& picture, const Mesh& mesh,
-                    std::span<const Complex> positions);
+/// Where the undeformed picture of a layer lies in the scene: where the layer was placed, on
+/// undeformed layers. `motion` gives the placing motion of a layer. That of the lowest layer that
+/// is drawn does not count: it is the page on which the others lie.
+Similarity original_placement(const Scene& scene, size_t layer, size_t lowest,
+                              const std::function<Similarity(size_t layer)>& motion);
 
 }  // namespace holomorph

@@ -167,10 +167,39 @@ class EditorWindowTest(WindowCase):
                 editor.wait(lambda s: not s["moving"], "an interface at rest")
                 editor.pause(0.5)
                 shot = self.screenshot(editor, "faint" + "".join(background.values())).astype(int)
-                shots.append([shot[editor.pixel(x, y)[1], editor.pixel(x, y)[0]] for x, y in ((20, 20), (60, 100), (90, 40), (130, 60))])
+                shots.append([shot[editor.pixel(x, y)[1], editor.pixel(x, y)[0]] for x, y in ((20, 20), (60, 100), (90, 40), (165, 116))])
         for k in range(3):
             self.assertLessEqual(numpy.abs(shots[1][k] - shots[0][k]).max(), 1, (k, shots))
         self.assertGreater(numpy.abs(shots[1][3] - shots[0][3]).max(), 50)  # the original of the bent one
+
+    @real
+    def test_layers_do_not_blend_with_originals(self):
+        """In the gap that a bent page leaves, a faint layer with each mode lies on the original as in the export."""
+        Image.new("RGBA", (200, 120), (200, 60, 40, 120)).save(os.path.join(self.work, "faint.png"))
+        self.plain("page.png", (60, 200, 90), (200, 120))
+        box = [[0, 0], [200, 0], [200, 120], [0, 120]]
+        for mode in ("multiply", "screen", "overlay", "add"):
+            with self.subTest(mode=mode):
+                layers = [{"image": {"file": "page.png"}, "cage": {"rest": [[p] for p in box], "pose": [[[0.5 * x + 10, y]] for x, y in box]}},
+                          {"image": {"file": "faint.png"}, "blending": mode, "cage": {"rest": []}}]
+                scene, out = os.path.join(self.work, mode + ".json"), os.path.join(self.work, mode + ".png")
+                with open(scene, "w") as file:
+                    json.dump({"format": "holomorph", "version": 2, "background": "original", "layers": layers}, file)
+                subprocess.run([PROGRAM, "render", scene, "--out", out, "--force"], check=True, capture_output=True)
+                exported = numpy.asarray(Image.open(out).convert("RGBA")).astype(int)
+                on_original = [a * 120 / 255 + b * 135 / 255 for a, b in zip((200, 60, 40), (60, 200, 90))]
+                with Editor([scene]) as editor:
+                    editor.wait(lambda s: s["layers"] == 2 and s["pictured"], "the scene")
+                    editor.wait(lambda s: not s["moving"], "an interface at rest")
+                    editor.pause(0.5)
+                    shot = self.screenshot(editor, "behind-" + mode).astype(int)
+                    for x, y in ((4, 60), (60, 60), (150, 60)):
+                        px, py = editor.pixel(x, y)
+                        there = exported[120 - y, x]
+                        self.assertEqual(there[3], 255)
+                        self.assertLessEqual(numpy.abs(shot[py, px] - there[:3]).max(), 1, (x, shot[py, px], there))
+                        if x != 60:
+                            self.assertLessEqual(numpy.abs(there[:3] - on_original).max(), 1, (x, there))
 
     @real
     def test_clipped_layers_look_like_the_export(self):

@@ -374,7 +374,7 @@ class CommandLine(Case):
             self.good("render", scene, "--out", self.path("alone.png"), "--force")
             alone.append(content("alone.png"))
         self.assertEqual(len(set(alone)), 3)
-        for out in (self.path("out"), self.path("out/*.png")):
+        for out in (self.path("out"), self.path("out/*.png"), self.path("out/*")):
             self.good("render", *scenes, "--out", out)
             self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.png", "b c.png", "d.v2.png"])
             self.assertEqual([content("out/" + name) for name in ("a.png", "b c.png", "d.v2.png")], alone)

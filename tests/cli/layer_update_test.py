@@ -153,9 +153,10 @@ class Updates(Case):
                     self.assert_same(self.drawn(self.BOX), self.composed(art, art.layers, self.BOX, (0, 0)), seed)
 
     def test_an_enlarged_layer_moves_with_what_it_is_attached_to(self):
-        """Moved together with it, it keeps its place on it; if only the other one is moved, it stays."""
-        for together in (True, False):
-            with self.subTest(together=together):
+        """Moved together with it, it keeps its place on it, moved a little farther, it moves a little, in its own
+        direction and size; if only the other one is moved, it stays."""
+        for moved, window in ((12, (-138, -150, 400, 400)), (13, (-138, -148, 400, 400)), (0, (-150, -150, 400, 400))):
+            with self.subTest(moved=moved):
                 art = Art(random.Random(8), 2)
                 self.start(art, "ids.psd")
                 scene = self.scene()
@@ -169,13 +170,12 @@ class Updates(Case):
                 head["visible"] = False
                 self.write("s.json", scene)
                 before = self.drawn((-150, -150, 400, 400))
-                for layer in art.layers[:2 if together else 1]:
-                    layer["x"] += 12
+                art.layers[0]["x"] += 12
+                art.layers[1]["x"] += moved
                 self.save(art, "ids.psd")
                 self.good("update", self.path("s.json"))
-                after = self.drawn((-138, -150, 400, 400) if together else (-150, -150, 400, 400))
                 self.assertGreater(before[..., 3].max(), 0)
-                self.assert_same(after, before, together)
+                self.assert_same(self.drawn(window), before, moved)
 
     def test_new_layers_lie_where_the_canvas_does(self):
         """Layers of the scene were placed by hand, or have moved in the file, when the canvas grows and gets a layer."""

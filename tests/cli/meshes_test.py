@@ -478,6 +478,20 @@ class Meshes(Case):
         self.bad("export", FERN, "--out", "-", "--format", "godot", says="several files")
         self.bad("export", still, "--format", "glb", "--keys", "--out", self.path("x.glb"), says="single moment")
 
+    def test_what_engines_cannot_show_is_said(self):
+        with open(os.path.join(SOURCE, "assets/gecko.json")) as file:
+            layer = {key: value for key, value in json.load(file).items() if key in ("cage", "method", "pins")}
+        Image.new("RGBA", (900, 600), (40, 90, 60, 255)).save(self.path("green.png"))
+        layer["image"] = {"file": "green.png"}
+        layers = [{**layer, "name": "Low"}, {**layer, "name": "High", "blending": "multiply", "clipped": True}]
+        both = ["High: its clipping is not kept", "High: its blending mode is not kept"]
+        for background, said in (({}, []), ({"background": "#204060"}, ["the color of the background is not kept"]),
+                                 ({"background": "original"}, ["the original behind the layers is not kept"])):
+            scene = self.write("said.json", {"format": "holomorph", "version": 2, "layers": layers, **background})
+            for kind, out in (("glb", "said.glb"), ("godot", "said.tscn"), ("spine", "spine.json")):
+                stderr = self.good("export", scene, "--format", kind, "--out", self.path(out), "--force").stderr
+                self.assertEqual(stderr.splitlines()[:-1], ["holomorph: " + text for text in said + both], (kind, background))
+
     def test_the_scenes_own_picture_is_not_replaced(self):
         for name in ("fern.json", "fern.png"):
             shutil.copy(os.path.join(SOURCE, "assets", name), self.folder)

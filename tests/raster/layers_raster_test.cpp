@@ -152,15 +152,17 @@ TEST_CASE("The background shows through where no layer is") {
   CHECK(pixel_at(both, 35, 0) == kNothing);
 }
 
-TEST_CASE("The original behind layers that are not bent changes nothing, wherever they lie") {
-  for (const unsigned seed : seeds_of("unbent layers", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})) {
-    INFO("seed " << seed);
-    std::mt19937 random(seed);
+/// Four layers of noise with random ink, placements and attachments. The lowest one is edited.
+struct NoisyLayers {
+  Image edited;
+  Pictures pictures;
+  Scene scene;
+
+  /// The cages of placed boxes are moved and turned, and bent if `bend` is not 0, in pixels.
+  NoisyLayers(std::mt19937& random, double bend) {
     const auto byte = [&] { return static_cast<std::uint8_t>(random() % 256); };
     const auto chance = [&](unsigned percent) { return random() % 100 < percent; };
     const auto length = [&] { return static_cast<double>(random() % 4000) / 100 - 20; };
-    Pictures pictures;
-    Image edited;
     std::vector<Layer> layers;
     for (int i = 0; i < 4; ++i) {
       Image image(20, 16);
@@ -174,43 +176,97 @@ TEST_CASE("The original behind layers that are not bent changes nothing, whereve
       layer.placement = {std::polar(chance(50) ? 1 : 1.4, length()), 0, {length(), length()}};
       if (i == 0 && chance(50)) {  // a cage inside the picture, at rest
         layer.deformation = with_cage({}, {{4.3, 3.1}, {15.6, 4.2}, {14.1, 12.7}, {5.2, 13.4}});
-      } else if (i > 0 && chance(60)) {  // a box that was moved and turned
+      } else if (i > 0 && chance(60)) {
         layer.deformation = with_cage({}, shapes::rectangle(20, 16));
         const Complex factor = std::polar(1.2, length()), by(length(), length());
         for (Points& segment : layer.deformation.pose.segments)
-          for (Complex& z : segment) z = factor * z + by;
+          for (Complex& z : segment)
+            z = factor * z + by + bend * Complex(length(), length()) / 20.0;
       }
       if (i > 0 && chance(40)) layer.attachment = Attachment{i, Attachment::To::place, 0, {4, 4}};
       pictures.put(*layer.image, {std::make_shared<const Image>(image), ""});
       if (i == 0) edited = image;
       layers.push_back(std::move(layer));
     }
-    // The original of what is attached to something that was moved lies where it was before.
-    for (size_t i = 2; i < layers.size(); ++i)
-      if (layers[i].attachment) layers[i - 1].deformation = {};
-    Scene scene;
     scene.layers = shared(std::move(layers));
-    const RasterResult plain = picture_of(scene, &edited, {}, pictures);
-    scene.background.fill = Background::Fill::original;
-    const RasterResult behind = picture_of(scene, &edited, {}, pictures);
-    CHECK(plain.corner == behind.corner);
+  }
+  RasterResult drawn(Background::Fill background, const PictureOptions& options = {}) {
+    scene.background.fill = background;
+    return picture_of(scene, &edited, options, pictures);
+  }
+};
+
+PictureOptions around_the_origin() {
+  PictureOptions options;
+  options.region = Box{-90, -90, 90, 90};
+  return options;
+}
+
+TEST_CASE("The original behind layers that are not bent changes nothing, wherever they lie") {
+  for (const unsigned seed : seeds_of("unbent layers", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    NoisyLayers layers(random, 0);
+    const RasterResult plain = layers.drawn(Background::Fill::transparent),
+                       behind = layers.drawn(Background::Fill::original);
+    CHECK(std::abs(plain.corner - behind.corner) < 1e-9);
     CHECK(farthest_apart(plain.image, behind.image) <= 2);
     // Where a layer is bent, its original lies where it was placed.
-    Layer still = *scene.layers[0], far = still;
+    Layer still = *layers.scene.layers[0], far = still;
     still.deformation = {};
     far.deformation = with_cage({}, shapes::rectangle(20, 16));
     for (Points& segment : far.deformation.pose.segments)
       for (Complex& z : segment) z = {z.real() + 0.2 * z.imag() + 400, z.imag()};
-    PictureOptions options;
-    options.region = Box{-60, -60, 60, 60};
     const auto alone = [&](Layer layer) {
       Scene one = scene_of(std::move(layer));
       one.background.fill = Background::Fill::original;
-      return picture_of(one, &edited, options, pictures);
+      return picture_of(one, &layers.edited, around_the_origin(), layers.pictures);
     };
     const Image there = alone(still).image, left = alone(far).image;
     CHECK(farthest_apart(left, there) <= 1);
   }
+}
+
+TEST_CASE("The original shows more of itself the more a placed picture is bent, without a jump") {
+  for (const unsigned seed : seeds_of("bent boxes", {1, 2, 3, 4, 5, 6, 7, 8})) {
+    INFO("seed " << seed);
+    const auto filled_by = [&](double bend) {
+      std::mt19937 random(seed);
+      NoisyLayers layers(random, bend);
+      const Image plain = layers.drawn(Background::Fill::transparent, around_the_origin()).image,
+                  all = layers.drawn(Background::Fill::original, around_the_origin()).image;
+      long sum = 0;
+      for (size_t i = 3; i < all.pixels.size(); i += 4) sum += all.pixels[i] - plain.pixels[i];
+      return static_cast<double>(sum) / 255;  // in opaque pixels
+    };
+    CHECK(filled_by(1e-3) < 2);
+    CHECK(filled_by(0.1) < 40);
+  }
+}
+
+TEST_CASE("Layers blend with one another, and not with the original behind them") {
+  int with_gaps = 0;
+  for (const unsigned seed : seeds_of("blended layers", {1, 2, 3, 4, 5, 6, 7, 8})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    NoisyLayers layers(random, 6);
+    const Image plain = layers.drawn(Background::Fill::transparent, around_the_origin()).image,
+                all = layers.drawn(Background::Fill::original, around_the_origin()).image;
+    int least = 0, most = 0, filled = 0;  // what the original adds, beyond what its alpha allows
+    for (size_t i = 0; i < all.pixels.size(); i += 4) {
+      const int alpha = all.pixels[i + 3], covered = plain.pixels[i + 3];
+      filled += alpha > covered;
+      for (size_t k = 0; k < 3; ++k) {
+        const int added = (all.pixels[i + k] * alpha - plain.pixels[i + k] * covered) / 255;
+        least = std::min(least, added);
+        most = std::max(most, added - (alpha - covered));
+      }
+    }
+    CHECK(least >= -2);
+    CHECK(most <= 2);
+    with_gaps += filled > 100;
+  }
+  CHECK(with_gaps > 4);
 }
 
 TEST_CASE("Views of the map show only the edited layer") {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/attachments.h"
 #include "scene/layers.h"
-#include "scene/original.h"
 
 namespace holomorph {
 namespace {
@@ -46,11 +46,9 @@ bool is_moved(const Workspace& workspace, const Layer& layer) {
   return !is_identity(workspace.placement(layer_index(workspace.document.scene(), layer.id)));
 }
 
-bool moves_as_whole(const Workspace& workspace, const Layer& layer) {
-  const LiveMap& map = workspace.maps.of(layer.id);
-  const auto picture = workspace.document.pictures().shared(layer);
-  return picture && map.has_map() &&
-         moves_as_whole(layer.deformation, picture->box(), *map.drawn(), as_span(map.map().f));
+/// Where a layer was placed, on undeformed layers.
+Similarity resting_placement(const Scene& scene, const Layer& layer) {
+  return placement_of(scene, layer_index(scene, layer.id), [](size_t) { return Similarity{}; });
 }
 
 Ink canvas_ink(const Scene& scene, size_t layer) {
@@ -136,13 +134,16 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
   const bool has_originals = scene.background.fill == Background::Fill::original && !edited_only;
   // With opacities or blending modes, the page is drawn alone, and the layers are combined away
   // from the window. The page is also drawn alone if its layer has been moved away from it.
+  const auto original_placement = [&](const Layer& layer) {
+    return workspace.original_placement(layer_index(scene, layer.id),
+                                        layer_index(scene, drawn.front()->id));
+  };
   const bool combines =
       !edited_only &&
       (std::ranges::any_of(drawn, [](const Layer* layer) { return is_blended(*layer); }) ||
        // Opaque originals can be drawn behind the layers as they are.
        (has_originals && !std::ranges::all_of(drawn, [&](const Layer* layer) {
-          return painter_of(*layer).is_opaque() &&
-                 is_identity(resting_placement(scene, layer_index(scene, layer->id)));
+          return painter_of(*layer).is_opaque() && is_identity(original_placement(*layer));
         })));
   const auto paint = [&](const Layer& layer, RenderFrame drawing) {
     painter_of(layer).draw(workspace.maps.of(layer.id),
@@ -168,16 +169,13 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     paint(layer, std::move(drawing));
     compositor_->end_layer(canvas_ink(scene, layer_index(scene, layer.id)));
   };
-  const auto resting_view = [&](const Layer& layer) {
-    return workspace.display.viewport.of_layer(
-        resting_placement(scene, layer_index(scene, layer.id)));
-  };
   const std::vector<OnionSkin> skins = workspace.onion_skins();
   const auto draw_layers = [&] {
     for (const Layer* layer : drawn) {
       RenderFrame drawing = frame;
       if (original && !edited_only)
-        set_view(drawing, resting_view(*layer), at);
+        set_view(drawing, workspace.display.viewport.of_layer(resting_placement(scene, *layer)),
+                 at);
       else
         set_view(drawing, workspace.layer_view(layer_index(scene, layer->id)), at);
       if (original || (layer == &edited && workspace.at_rest()))
@@ -197,15 +195,13 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     }
     for (const Layer* layer : drawn) {
       RenderFrame as_it_was = frame;
-      // That of the lowest layer is the page on which the others lie.
-      if (layer == drawn.front() || !moves_as_whole(workspace, *layer))
-        as_it_was.content = Content::original;
-      set_view(as_it_was, resting_view(*layer), at);
+      as_it_was.content = Content::original;
+      set_view(as_it_was, workspace.display.viewport.of_layer(original_placement(*layer)), at);
       draw(*layer, as_it_was);
     }
     if (combines) compositor_->fill_gaps();
   }
-  draw_layers();
+  if (!has_originals || !combines) draw_layers();
   if (combines) {
     const auto px = [](double value) { return static_cast<int>(value); };
     const int bottom = frame.window_height - px(frame.canvas_top) - px(frame.canvas_height),

@@ -64,7 +64,9 @@ LayerMark mark_of(const Image& image, const std::string& name) {
   return {name, sha256_hex(bytes), {image.left + left, image.top() - bottom}};
 }
 
-DrawnLayer background_layer(const LayeredPicture& picture) {
+std::vector<DrawnLayer> background_layers(const LayeredPicture& picture) {
+  std::vector<DrawnLayer> layers = picture.originals;
+  if (!picture.background) return layers;
   DrawnLayer layer;
   layer.name = "Background";
   layer.image = Image(picture.merged.width, picture.merged.height);
@@ -72,11 +74,13 @@ DrawnLayer background_layer(const LayeredPicture& picture) {
     std::ranges::copy(*picture.background, &layer.image.pixels[i]);
     layer.image.pixels[i + 3] = 255;
   }
-  return layer;
+  layers.insert(layers.begin(), std::move(layer));
+  return layers;
 }
 
 bool needs_group(const LayeredPicture& picture) {
-  return picture.background && std::ranges::any_of(picture.layers, [](const DrawnLayer& layer) {
+  return (picture.background || !picture.originals.empty()) &&
+         std::ranges::any_of(picture.layers, [](const DrawnLayer& layer) {
            return layer.blending != Blending::normal;
          });
 }

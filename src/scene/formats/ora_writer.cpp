@@ -154,7 +154,7 @@ std::string encode_ora(const LayeredPicture& picture) {
     node.append_attribute("composite-op") = mode_of(layer.blending);
     files.emplace_back(file, encode_png(layer.image));
   };
-  if (picture.background) add(stack, background_layer(picture));
+  for (const DrawnLayer& layer : background_layers(picture)) add(stack, layer);
   if (needs_group(picture)) {
     stack = stack.prepend_child("stack");
     stack.append_attribute("name") = "Layers";

@@ -82,6 +82,30 @@ std::string mask_of(const std::string& base, const std::string& everywhere) {
          "><use xlink:href=\"#" + base + "\" filter=\"url(#white)\"/></mask>\n";
 }
 
+/// Layers from bottom to top, each base with what is clipped to it.
+std::string stack_of(const std::vector<DrawnLayer>& layers, const std::string& everywhere) {
+  std::string svg;
+  for (size_t i = 0; i < layers.size();) {
+    size_t end = i + 1;
+    while (end < layers.size() && layers[end].clipped) ++end;
+    svg += named_group(layers[i]) + ink_of(layers[i]) + ">\n";
+    if (end == i + 1) {
+      svg += content_of(layers[i]) + "\n";
+    } else {
+      const std::string base = "base-" + std::to_string(i);
+      const std::string mask = " mask=\"url(#mask-" + base + ")\"";
+      svg += mask_of(base, everywhere) + "<g" + mask + "><g filter=\"url(#opaque)\"><g id=\"" +
+             base + "\">" + content_of(layers[i]) + "</g></g>\n";
+      for (size_t k = i + 1; k < end; ++k)
+        svg += named_group(layers[k]) + ink_of(layers[k]) + ">" + content_of(layers[k]) + "</g>\n";
+      svg += "</g>\n";
+    }
+    svg += "</g>\n";
+    i = end;
+  }
+  return svg;
+}
+
 }  // namespace
 
 std::string encode_svg(const LayeredPicture& picture) {
@@ -107,26 +131,10 @@ std::string encode_svg(const LayeredPicture& picture) {
     std::snprintf(color, sizeof color, "#%02x%02x%02x", r, g, b);
     svg += "<rect" + size + " fill=\"" + color + "\"/>\n";
   }
-  svg += "<g style=\"isolation:isolate\">\n";
-  for (size_t i = 0; i < layers.size();) {
-    size_t end = i + 1;
-    while (end < layers.size() && layers[end].clipped) ++end;
-    svg += named_group(layers[i]) + ink_of(layers[i]) + ">\n";
-    if (end == i + 1) {
-      svg += content_of(layers[i]) + "\n";
-    } else {
-      const std::string base = "base-" + std::to_string(i);
-      const std::string mask = " mask=\"url(#mask-" + base + ")\"";
-      svg += mask_of(base, everywhere) + "<g" + mask + "><g filter=\"url(#opaque)\"><g id=\"" +
-             base + "\">" + content_of(layers[i]) + "</g></g>\n";
-      for (size_t k = i + 1; k < end; ++k)
-        svg += named_group(layers[k]) + ink_of(layers[k]) + ">" + content_of(layers[k]) + "</g>\n";
-      svg += "</g>\n";
-    }
-    svg += "</g>\n";
-    i = end;
-  }
-  return svg + "</g>\n</svg>\n";
+  for (const DrawnLayer& original : picture.originals)
+    svg += named_group(original) + ">\n" + content_of(original) + "\n</g>\n";
+  return svg + "<g style=\"isolation:isolate\">\n" + stack_of(layers, everywhere) +
+         "</g>\n</svg>\n";
 }
 
 }  // namespace holomorph
