@@ -60,27 +60,23 @@ bool is_settled(const Workspace& workspace) {
          });
 }
 
-RasterResult combined(const std::vector<LayerSnapshot>& layers, const Box& box, double scale) {
-  Composition all(scale);
-  for (const LayerSnapshot& layer : layers) {
-    RasterJob job;
-    job.mesh = layer.mesh.get();
-    job.positions = as_span(layer.f);
-    const auto fringe = layer.mesh ? fringe_of(*layer.mesh, *layer.picture) : nullptr;
-    const Points around = fringe ? fringe->positions(as_span(layer.f)) : Points();
-    if (fringe) job.fringe = &fringe->mesh;
-    job.fringe_positions = around;
-    job.source = layer.picture.get();
-    job.placement = layer.placement;
-    job.pixels_per_unit = scale;
-    job.region = box;
-    job.top = box.top;
-    all.add(rasterized(job), layer.ink);
-  }
-  return std::move(all).result();
+RasterResult rasterized(const LayerSnapshot& layer, const Box& box, double scale) {
+  RasterJob job;
+  job.mesh = layer.mesh.get();
+  job.positions = as_span(layer.f);
+  const auto fringe = layer.mesh ? fringe_of(*layer.mesh, *layer.picture) : nullptr;
+  const Points around = fringe ? fringe->positions(as_span(layer.f)) : Points();
+  if (fringe) job.fringe = &fringe->mesh;
+  job.fringe_positions = around;
+  job.source = layer.picture.get();
+  job.placement = layer.placement;
+  job.pixels_per_unit = scale;
+  job.region = box;
+  job.top = box.top;
+  return holomorph::rasterized(job);
 }
 
-/// The layers over what fills their gaps.
+/// The layers over what fills their gaps, if there are originals.
 LastPicture picture_of(const std::vector<LayerSnapshot>& layers,
                        const std::vector<LayerSnapshot>& originals) {
   Box box;
@@ -89,13 +85,13 @@ LastPicture picture_of(const std::vector<LayerSnapshot>& layers,
     for (const Complex& z : layer.f) box.include(layer.placement(z));
   }
   const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
-  RasterResult result = combined(layers, box, scale);
-  if (!originals.empty()) {
-    Composition all(scale);
-    all.add(gaps_filled_by(combined(originals, box, scale), result, scale));
-    all.add(std::move(result));
-    result = std::move(all).result();
+  LayerStack stack(scale, true);
+  for (size_t i = 0; i < layers.size(); ++i) {
+    std::optional<RasterResult> original;
+    if (!originals.empty()) original = rasterized(originals[i], box, scale);
+    stack.add(rasterized(layers[i], box, scale), layers[i].ink, std::move(original));
   }
+  RasterResult result = std::move(stack).result();
   LastPicture picture;
   picture.box.include(result.corner);
   picture.box.include(result.corner + Complex(result.image.width, result.image.height) / scale);

@@ -75,6 +75,31 @@ Shift shift_between(Complex from, Complex to, double pixels_per_unit) {
   return {static_cast<int>(std::lround(by.real())), static_cast<int>(std::lround(by.imag()))};
 }
 
+/// The background of which only what fills the gaps of a picture is left: together, they have the
+/// larger alpha of the two.
+RasterResult gaps_filled_by(RasterResult background, const RasterResult& picture,
+                            double pixels_per_unit) {
+  const Shift shift = shift_between(picture.corner, background.corner, pixels_per_unit);
+  Image& image = background.image;
+  const Image& over = picture.image;
+  const int top = over.height - shift.up - image.height;
+  const auto fill = [](float alpha, float covered) {
+    return covered >= 1 ? 0 : std::max(0.0f, alpha - covered) / (1 - covered);
+  };
+  for (int r = 0; r < image.height; ++r)
+    for (int c = 0; c < image.width; ++c) {
+      const int row = top + r, column = shift.right + c;
+      if (row < 0 || row >= over.height || column < 0 || column >= over.width) continue;
+      const size_t at = image.index(c, r) + 3, there = over.index(column, row) + 3;
+      const float covered =
+          (over.fine.empty() ? static_cast<float>(over.pixels[there]) : over.fine[there]) / 255;
+      if (!image.fine.empty()) image.fine[at] = 255 * fill(image.fine[at] / 255, covered);
+      image.pixels[at] = static_cast<std::uint8_t>(
+          255 * fill(static_cast<float>(image.pixels[at]) / 255, covered) + 0.5f);
+    }
+  return background;
+}
+
 }  // namespace
 
 LayerInk ink_of(const Scene& scene, size_t layer) {
@@ -186,27 +211,43 @@ void Composition::blend(const Layer& over, Layer& under, const LayerInk& ink) co
   }
 }
 
-RasterResult gaps_filled_by(RasterResult background, const RasterResult& picture,
-                            double pixels_per_unit) {
-  const Shift shift = shift_between(picture.corner, background.corner, pixels_per_unit);
-  Image& image = background.image;
-  const Image& over = picture.image;
-  const int top = over.height - shift.up - image.height;
-  const auto fill = [](float alpha, float covered) {
-    return covered >= 1 ? 0 : std::max(0.0f, alpha - covered) / (1 - covered);
-  };
-  for (int r = 0; r < image.height; ++r)
-    for (int c = 0; c < image.width; ++c) {
-      const int row = top + r, column = shift.right + c;
-      if (row < 0 || row >= over.height || column < 0 || column >= over.width) continue;
-      const size_t at = image.index(c, r) + 3, there = over.index(column, row) + 3;
-      const float covered =
-          (over.fine.empty() ? static_cast<float>(over.pixels[there]) : over.fine[there]) / 255;
-      if (!image.fine.empty()) image.fine[at] = 255 * fill(image.fine[at] / 255, covered);
-      image.pixels[at] = static_cast<std::uint8_t>(
-          255 * fill(static_cast<float>(image.pixels[at]) / 255, covered) + 0.5f);
+void LayerStack::add(RasterResult picture, const LayerInk& ink,
+                     std::optional<RasterResult> original) {
+  if (original && !cuts_) {
+    originals_.add(std::move(*original), ink);
+  } else if (original) {
+    if (!ink.clipped) {
+      end_group();
+      blending_ = ink.blending;
     }
-  return background;
+    originals_of_group_.add(std::move(*original), ink);
+    group_.add(picture, ink);
+  }
+  layers_.add(std::move(picture), ink);
+}
+
+void LayerStack::end_group() {
+  if (group_.empty()) return;
+  RasterResult gaps = gaps_filled_by(std::move(originals_of_group_).result(),
+                                     std::move(group_).result(), pixels_per_unit_);
+  if (!filled_range(gaps.image).empty())
+    originals_.add(cropped_to_filled(std::move(gaps), pixels_per_unit_), {255, blending_});
+  group_ = originals_of_group_ = Composition(pixels_per_unit_);
+}
+
+std::optional<RasterResult> LayerStack::originals() && {
+  end_group();
+  if (originals_.empty()) return {};
+  return std::move(originals_).result();
+}
+
+RasterResult LayerStack::result() && {
+  auto behind = std::move(*this).originals();
+  if (!behind) return std::move(layers_).result();
+  Composition all(pixels_per_unit_);
+  all.add(std::move(*behind));
+  all.add(std::move(layers_).result());
+  return std::move(all).result();
 }
 
 Box filled_box(const RasterResult& result, double pixels_per_unit) {

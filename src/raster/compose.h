@@ -55,10 +55,37 @@ class Composition {
   std::optional<Layer> group_;  ///< the base with what is clipped to it; none if nothing is
 };
 
-/// The background of which only what fills the gaps of a picture is left: together, they have the
-/// larger alpha of the two.
-RasterResult gaps_filled_by(RasterResult background, const RasterResult& picture,
-                            double pixels_per_unit);
+/// Layers from the bottom to the top, over what fills the gaps that they leave where they were
+/// before. Layers do not blend with that.
+class LayerStack {
+ public:
+  /// With `cuts`, only what fills gaps is left of an original: together with its layer, it has the
+  /// larger alpha of the two. Otherwise, originals lie whole behind all layers.
+  LayerStack(double pixels_per_unit, bool cuts)
+      : pixels_per_unit_(pixels_per_unit),
+        cuts_(cuts),
+        layers_(pixels_per_unit),
+        originals_(pixels_per_unit),
+        group_(pixels_per_unit),
+        originals_of_group_(pixels_per_unit) {}
+
+  /// Adds a layer, as Composition::add() does. Either all layers have originals, or none has.
+  void add(RasterResult picture, const LayerInk& ink, std::optional<RasterResult> original = {});
+  bool empty() const { return layers_.empty(); }
+  /// What fills the gaps; none if nothing does.
+  std::optional<RasterResult> originals() &&;
+  /// The layers over what fills their gaps. There must be a layer.
+  RasterResult result() &&;
+
+ private:
+  void end_group();
+
+  double pixels_per_unit_;
+  bool cuts_;
+  Composition layers_, originals_;
+  Composition group_, originals_of_group_;  ///< the last layer, with what is clipped to it
+  Blending blending_ = Blending::normal;    ///< of that layer
+};
 
 /// The part of the plane that pixels with some alpha cover; empty if there are none.
 Box filled_box(const RasterResult& result, double pixels_per_unit);

@@ -329,33 +329,18 @@ bool PictureMaker::has_opaque_originals(const std::optional<double>& time) {
   return true;
 }
 
-std::optional<RasterResult> PictureMaker::posed(const PictureOptions& options) {
+LayerStack PictureMaker::stack(const PictureOptions& options, bool with_originals) {
   const Frame frame = frame_of(options);
-  Composition all(options.scale);
+  LayerStack stack(options.scale, with_originals && !has_opaque_originals(options.time));
   for (size_t i = 0; i < layers_.size(); ++i)
     if (draws(i))
-      all.add(layers_[i]->picture(frame, placement(i, options.time)), ink_of(scene_, i));
-  if (all.empty()) return {};
-  return std::move(all).result();
+      stack.add(layers_[i]->picture(frame, placement(i, options.time)), ink_of(scene_, i),
+                with_originals ? original(i, options) : std::nullopt);
+  return stack;
 }
 
 std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) {
-  const auto posed = this->posed(options);
-  return posed ? originals_behind(*posed, options) : std::nullopt;
-}
-
-std::optional<RasterResult> PictureMaker::originals_behind(const RasterResult& posed,
-                                                           const PictureOptions& options) {
-  Composition all(options.scale);
-  for (size_t i = 0; i < layers_.size(); ++i)
-    if (auto drawn = draws(i) ? original(i, options) : std::nullopt)
-      all.add(std::move(*drawn), ink_of(scene_, i));
-  if (all.empty()) return {};
-  RasterResult background = std::move(all).result();
-  if (has_opaque_originals(options.time)) return background;
-  background = gaps_filled_by(std::move(background), posed, options.scale);
-  if (filled_range(background.image).empty()) return {};
-  return cropped_to_filled(std::move(background), options.scale);
+  return stack(options, true).originals();
 }
 
 RasterResult PictureMaker::picture(const PictureOptions& options) {
@@ -364,13 +349,10 @@ RasterResult PictureMaker::picture(const PictureOptions& options) {
   if (options.view != View::image)
     return layers_[scene_.edited]->picture(frame_of(options),
                                            placement(scene_.edited, options.time));
-  std::optional<RasterResult> posed = this->posed(options);
-  if (!posed) throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
-  Composition all(options.scale);
-  if (scene_.background.fill == Background::Fill::original)
-    if (auto originals = originals_behind(*posed, options)) all.add(std::move(*originals));
-  all.add(std::move(*posed));
-  RasterResult result = std::move(all).result();
+  LayerStack layers = stack(options, scene_.background.fill == Background::Fill::original);
+  if (layers.empty())
+    throw Error(ErrorKind::bad_input, "there is nothing to draw: no layer is visible");
+  RasterResult result = std::move(layers).result();
   if (options.crops_to_filled) result = cropped_to_filled(std::move(result), options.scale);
   if (scene_.background.fill == Background::Fill::color)
     composite_onto_color(result.image, scene_.background.color);

@@ -77,11 +77,8 @@ class PictureMaker {
     std::optional<Box> stage = {};  ///< as in RasterJob
   };
   Frame frame_of(const PictureOptions& options) const;
-  /// The visible layers together; none if there are none.
-  std::optional<RasterResult> posed(const PictureOptions& options);
-  /// What fills the gaps of the posed layers.
-  std::optional<RasterResult> originals_behind(const RasterResult& posed,
-                                               const PictureOptions& options);
+  /// The visible layers.
+  LayerStack stack(const PictureOptions& options, bool with_originals);
   std::vector<MotionPart> motion_parts(size_t layer);
 
   const Scene& scene_;

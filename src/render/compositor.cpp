@@ -52,6 +52,7 @@ void Compositor::resize(int width, int height) {
 void Compositor::begin(int width, int height) {
   if (width != width_ || height != height_) resize(width, height);
   clear(under_);
+  has_behind_ = false;
   base_ink_.reset();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
@@ -117,14 +118,21 @@ void Compositor::keep() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Compositor::fill_gaps() {
+void Compositor::fill_gaps(int blending) {
   end_base();
   blend(under_, kept_, {.blending = -2});
-  blend(under_, kept_, {});
+  if (!std::exchange(has_behind_, true)) clear(behind_);
+  blend(behind_, under_, {.blending = blending});
+  clear(under_);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 void Compositor::finish(int left, int bottom, int width, int height) {
   end_base();
+  if (has_behind_) {
+    blend(behind_, under_, {});
+    std::swap(under_, behind_);
+  }
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

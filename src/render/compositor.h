@@ -34,18 +34,18 @@ class Compositor {
   void end_layer(const Ink& ink);
   /// Keeps the result, and starts again with nothing.
   void keep();
-  /// Leaves only what fills the gaps of the result that was kept, and puts that over it: together,
-  /// they have the larger alpha of the two.
-  void fill_gaps();
-  /// Draws the result over the window's content, within this rectangle in framebuffer px with its
-  /// origin at the lower left.
+  /// Adds what of the result fills the gaps of the one that was kept to what lies behind all
+  /// layers, and starts again with nothing. Together, they have the larger alpha of the two.
+  void fill_gaps(int blending);
+  /// Draws the result, over what lies behind it, over the window's content. The rectangle is in
+  /// framebuffer px with its origin at the lower left.
   void finish(int left, int bottom, int width, int height);
 
  private:
   struct Target {
     unsigned framebuffer = 0, texture = 0;
   };
-  std::array<Target*, 5> targets() { return {&under_, &base_, &over_, &result_, &kept_}; }
+  std::array<Target*, 6> targets() { return {&under_, &base_, &over_, &result_, &kept_, &behind_}; }
   void resize(int width, int height);
   static void clear(const Target& target);
   void blend(Target& under, const Target& over, const Ink& ink);
@@ -54,7 +54,8 @@ class Compositor {
   void end_base();
 
   Program program_;
-  Target under_, base_, over_, result_, kept_;
+  Target under_, base_, over_, result_, kept_, behind_;
+  bool has_behind_ = false;
   std::optional<Ink> base_ink_;  ///< none: nothing has been drawn into base_
   unsigned array_ = 0, stencil_ = 0;
   int width_ = 0, height_ = 0;

@@ -185,7 +185,7 @@ class EditorWindowTest(WindowCase):
                 scene, out = os.path.join(self.work, mode + ".json"), os.path.join(self.work, mode + ".png")
                 with open(scene, "w") as file:
                     json.dump({"format": "holomorph", "version": 2, "background": "original", "layers": layers}, file)
-                subprocess.run([PROGRAM, "render", scene, "--out", out, "--force"], check=True, capture_output=True)
+                subprocess.run([PROGRAM, "render", scene, "--rect=0,0,200,120", "--out", out, "--force"], check=True, capture_output=True)
                 exported = numpy.asarray(Image.open(out).convert("RGBA")).astype(int)
                 on_original = [a * 120 / 255 + b * 135 / 255 for a, b in zip((200, 60, 40), (60, 200, 90))]
                 with Editor([scene]) as editor:
@@ -193,7 +193,7 @@ class EditorWindowTest(WindowCase):
                     editor.wait(lambda s: not s["moving"], "an interface at rest")
                     editor.pause(0.5)
                     shot = self.screenshot(editor, "behind-" + mode).astype(int)
-                    for x, y in ((4, 60), (60, 60), (150, 60)):
+                    for x, y in ((60, 60), (150, 60), (190, 20)):
                         px, py = editor.pixel(x, y)
                         there = exported[120 - y, x]
                         self.assertEqual(there[3], 255)

@@ -67,7 +67,7 @@ void Compositor::begin(int, int) {}
 void Compositor::begin_layer() {}
 void Compositor::end_layer(const Ink&) {}
 void Compositor::keep() {}
-void Compositor::fill_gaps() {}
+void Compositor::fill_gaps(int) {}
 void Compositor::finish(int, int, int, int) {}
 
 SurfaceRenderer::SurfaceRenderer() = default;

@@ -170,38 +170,44 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     compositor_->end_layer(canvas_ink(scene, layer_index(scene, layer.id)));
   };
   const std::vector<OnionSkin> skins = workspace.onion_skins();
-  const auto draw_layers = [&] {
-    for (const Layer* layer : drawn) {
-      RenderFrame drawing = frame;
-      if (original && !edited_only)
-        set_view(drawing, workspace.display.viewport.of_layer(resting_placement(scene, *layer)),
-                 at);
-      else
-        set_view(drawing, workspace.layer_view(layer_index(scene, layer->id)), at);
-      if (original || (layer == &edited && workspace.at_rest()))
-        drawing.placement = Placement::at_rest;
-      if (layer == &edited) {
-        drawing.wireframe = workspace.display.show_mesh;
-        for (const OnionSkin& skin : skins)
-          drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
-      }
-      draw(*layer, std::move(drawing));
-    }
+  const auto posed = [&](const Layer& layer) {
+    RenderFrame drawing = frame;
+    if (original && !edited_only)
+      set_view(drawing, workspace.display.viewport.of_layer(resting_placement(scene, layer)), at);
+    else
+      set_view(drawing, workspace.layer_view(layer_index(scene, layer.id)), at);
+    if (original || (&layer == &edited && workspace.at_rest()))
+      drawing.placement = Placement::at_rest;
+    return drawing;
   };
-  if (has_originals) {
-    if (combines) {
-      draw_layers();
+  const auto as_it_was = [&](const Layer& layer) {
+    RenderFrame drawing = frame;
+    drawing.content = Content::original;
+    set_view(drawing, workspace.display.viewport.of_layer(original_placement(layer)), at);
+    return drawing;
+  };
+  if (has_originals && !combines)
+    for (const Layer* layer : drawn) draw(*layer, as_it_was(*layer));
+  if (has_originals && combines) {
+    for (size_t first = 0, end; first < drawn.size(); first = end) {
+      end = first + 1;  // a layer, and what is clipped to it
+      while (end < drawn.size() && canvas_ink(scene, layer_index(scene, drawn[end]->id)).clipped)
+        ++end;
+      for (size_t i = first; i < end; ++i) draw(*drawn[i], posed(*drawn[i]));
       compositor_->keep();
+      for (size_t i = first; i < end; ++i) draw(*drawn[i], as_it_was(*drawn[i]));
+      compositor_->fill_gaps(static_cast<int>(drawn[first]->blending));
     }
-    for (const Layer* layer : drawn) {
-      RenderFrame as_it_was = frame;
-      as_it_was.content = Content::original;
-      set_view(as_it_was, workspace.display.viewport.of_layer(original_placement(*layer)), at);
-      draw(*layer, as_it_was);
-    }
-    if (combines) compositor_->fill_gaps();
   }
-  if (!has_originals || !combines) draw_layers();
+  for (const Layer* layer : drawn) {
+    RenderFrame drawing = posed(*layer);
+    if (layer == &edited) {
+      drawing.wireframe = workspace.display.show_mesh;
+      for (const OnionSkin& skin : skins)
+        drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
+    }
+    draw(*layer, std::move(drawing));
+  }
   if (combines) {
     const auto px = [](double value) { return static_cast<int>(value); };
     const int bottom = frame.window_height - px(frame.canvas_top) - px(frame.canvas_height),
