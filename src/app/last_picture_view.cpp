@@ -26,6 +26,7 @@ struct LayerSnapshot {
   VectorXc f;
   std::shared_ptr<const Image> picture;
   Similarity placement;
+  std::optional<Similarity> original;  ///< where the undeformed picture lies behind the layers
   LayerInk ink;
 };
 
@@ -76,20 +77,21 @@ RasterResult rasterized(const LayerSnapshot& layer, const Box& box, double scale
   return holomorph::rasterized(job);
 }
 
-/// The layers over what fills their gaps, if there are originals.
-LastPicture picture_of(const std::vector<LayerSnapshot>& layers,
-                       const std::vector<LayerSnapshot>& originals) {
+LastPicture picture_of(const std::vector<LayerSnapshot>& layers) {
   Box box;
   for (const LayerSnapshot& layer : layers) {
     for (const Complex& z : layer.picture->page().corners()) box.include(layer.placement(z));
     for (const Complex& z : layer.f) box.include(layer.placement(z));
+    if (!layer.original) continue;
+    for (const Complex& z : layer.picture->page().corners()) box.include((*layer.original)(z));
   }
   const double scale = std::min(1.0, kLongestPictureSide / std::max(box.width(), box.height()));
-  LayerStack stack(scale, true);
-  for (size_t i = 0; i < layers.size(); ++i) {
+  LayerStack stack(scale, Originals::in_gaps);
+  for (const LayerSnapshot& layer : layers) {
     std::optional<RasterResult> original;
-    if (!originals.empty()) original = rasterized(originals[i], box, scale);
-    stack.add(rasterized(layers[i], box, scale), layers[i].ink, std::move(original));
+    if (layer.original)
+      original = rasterized({nullptr, {}, layer.picture, *layer.original, {}, {}}, box, scale);
+    stack.add(rasterized(layer, box, scale), layer.ink, std::move(original));
   }
   RasterResult result = std::move(stack).result();
   LastPicture picture;
@@ -141,9 +143,9 @@ void LastPictureView::update(const Workspace& workspace) {
 
 void LastPictureView::keep(const Workspace& workspace) {
   kept_hash_ = workspace.document.file_hash();
-  std::vector<LayerSnapshot> layers, originals;
+  std::vector<LayerSnapshot> layers;
   const Scene& scene = workspace.document.scene();
-  size_t lowest = 0;
+  const bool has_originals = scene.background.fill == Background::Fill::original;
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     const auto picture = workspace.document.pictures().shared(layer);
@@ -152,19 +154,16 @@ void LastPictureView::keep(const Workspace& workspace) {
     if (!is_shown(scene, i) || !picture || !has_base) continue;
     const LiveMap& map = workspace.maps.of(layer.id);
     const bool bent = layer.deformation.has_cage() && map.has_map();
-    const LayerSnapshot posed{bent ? map.drawn() : nullptr, bent ? map.map().f : VectorXc(),
-                              picture, workspace.placement(i), ink_of(scene, i)};
-    layers.push_back(posed);
-    if (layers.size() == 1) lowest = i;
-    originals.push_back({nullptr, {}, picture, workspace.original_placement(i, lowest), posed.ink});
+    layers.push_back({bent ? map.drawn() : nullptr, bent ? map.map().f : VectorXc(), picture,
+                      workspace.placement(i),
+                      has_originals ? workspace.original_placement(i) : std::nullopt,
+                      ink_of(scene, i)});
   }
-  if (scene.background.fill != Background::Fill::original) originals.clear();
   if (layers.empty()) return;
   job_ = std::make_unique<Job>(
       "Keeping the picture",
-      [layers = std::move(layers), originals = std::move(originals),
-       hash = kept_hash_](Job::Progress& progress) {
-        const LastPicture picture = picture_of(layers, originals);
+      [layers = std::move(layers), hash = kept_hash_](Job::Progress& progress) {
+        const LastPicture picture = picture_of(layers);
         if (!progress.cancelled()) keep_last_picture(hash, picture);
       },
       wake_);

@@ -183,9 +183,11 @@ void CommandLine::add_render(CLI::App& app) {
   auto* sub = add(app, "render", "Draw posed scenes to PNG, JPEG, WebP or OpenEXR files", render);
   sub->add_option("SCENE", render.scenes, "One scene or several")->required();
   add_outside(sub, render);
-  sub->add_option("--out", render.out,
-                  "File to write; its extension selects the format. For several scenes a folder, "
-                  "or a name with * for the name of each scene, such as 'pictures/*.png'")
+  sub->add_option(
+         "--out", render.out,
+         "File to write; its extension selects the format. For several scenes a folder, "
+         "or a name with * for the name of each scene, such as 'pictures/*.webp'. Without an "
+         "extension, pictures are PNG files")
       ->required();
   sub->add_option("--scale", render.scale, "Output pixels per image pixel")->capture_default_str();
   sub->add_option("--view", render.view, "image, angle, area, stretch or checker")

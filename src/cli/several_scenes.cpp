@@ -17,7 +17,7 @@ namespace {
 Path picture_path(const Path& out, const Path& scene) {
   std::error_code ignored;
   if (is_standard(out)) return out;
-  const Path pattern = std::filesystem::is_directory(out, ignored) ? out / "*.png" : out;
+  const Path pattern = std::filesystem::is_directory(out, ignored) ? out / "*" : out;
   std::string name = pattern.filename().string();
   const size_t star = name.find('*');
   if (star == std::string::npos) return out;

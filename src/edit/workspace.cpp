@@ -145,13 +145,17 @@ bool Workspace::require_open_layer() {
   return !layer.locked && layer.visible;
 }
 
-Similarity Workspace::original_placement(size_t layer, size_t lowest) const {
+std::optional<Similarity> Workspace::original_placement(size_t layer) const {
   const Scene& scene = document.scene();
+  const Pictures& pictures = document.pictures();
+  size_t lowest = 0;
+  while (lowest < layer && (!is_shown(scene, lowest) || !pictures.of(*scene.layers[lowest])))
+    ++lowest;
   return holomorph::original_placement(scene, layer, lowest, [&](size_t i) {
     const Layer& it = *scene.layers[i];
     const LiveMap& map = maps.of(it.id);
-    const auto picture = document.pictures().shared(it);
-    if (!picture || !map.has_map()) return Similarity{};
+    const auto picture = pictures.shared(it);
+    if (!picture || !map.has_map()) return std::optional(Similarity{});
     return placing_motion(it.deformation, picture->box(), *map.drawn(), as_span(map.map().f));
   });
 }

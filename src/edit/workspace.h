@@ -129,8 +129,8 @@ struct Workspace {
   std::optional<Complex> overlap() const;
   /// Where the plane of the layer with an index lies in the scene's plane, as displayed.
   Similarity placement(size_t layer) const { return maps.placement(document.scene(), layer); }
-  /// The same for its undeformed picture. `lowest` is the lowest layer that is drawn.
-  Similarity original_placement(size_t layer, size_t lowest) const;
+  /// The same for its undeformed picture, if it has one; see scene/original.h.
+  std::optional<Similarity> original_placement(size_t layer) const;
   /// The canvas in the plane of the edited layer, in which tools work.
   Viewport layer_view() const { return layer_view(document.scene().edited); }
   Viewport layer_view(size_t layer) const {

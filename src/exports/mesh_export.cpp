@@ -229,9 +229,9 @@ std::string mesh_error_text(const MovingMeshes& moving) {
 std::vector<std::string> mesh_losses_of(const Scene& scene) {
   std::vector<std::string> losses;
   if (scene.background.fill == Background::Fill::color)
-    losses.push_back("the color of the background is not kept");
+    losses.push_back("Background: its color is not kept");
   if (scene.background.fill == Background::Fill::original)
-    losses.push_back("the original behind the layers is not kept");
+    losses.push_back("Background: the original is not kept");
   for (size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = *scene.layers[i];
     if (!is_shown(scene, i)) continue;

@@ -1,5 +1,6 @@
 // A picture that nothing is composited with keeps its bits. All others become floating-point
-// numbers until the end, because the rounding of many faint layers would be visible.
+// numbers until the end, because the rounding of many faint layers would be visible. Layers and
+// what lies behind them are rounded once more.
 #include "raster/compose.h"
 
 #include <algorithm>
@@ -75,10 +76,9 @@ Shift shift_between(Complex from, Complex to, double pixels_per_unit) {
   return {static_cast<int>(std::lround(by.real())), static_cast<int>(std::lround(by.imag()))};
 }
 
-/// The background of which only what fills the gaps of a picture is left: together, they have the
-/// larger alpha of the two.
-RasterResult gaps_filled_by(RasterResult background, const RasterResult& picture,
-                            double pixels_per_unit) {
+/// The background, cut to the gaps of a picture: together, they have the larger alpha of the two.
+RasterResult cut_to_gaps(RasterResult background, const RasterResult& picture,
+                         double pixels_per_unit) {
   const Shift shift = shift_between(picture.corner, background.corner, pixels_per_unit);
   Image& image = background.image;
   const Image& over = picture.image;
@@ -213,36 +213,38 @@ void Composition::blend(const Layer& over, Layer& under, const LayerInk& ink) co
 
 void LayerStack::add(RasterResult picture, const LayerInk& ink,
                      std::optional<RasterResult> original) {
-  if (original && !cuts_) {
-    originals_.add(std::move(*original), ink);
-  } else if (original) {
+  if (shown_ == Originals::whole) {
+    if (original) originals_.add(std::move(*original), ink);
+  } else {
     if (!ink.clipped) {
       end_group();
       blending_ = ink.blending;
     }
-    originals_of_group_.add(std::move(*original), ink);
-    group_.add(picture, ink);
+    const bool has_gaps = original && !ink.clipped;
+    if (original && (has_gaps || !group_.empty()))
+      originals_of_group_.add(std::move(*original), ink);
+    if (has_gaps || !group_.empty()) group_.add(picture, ink);
   }
   layers_.add(std::move(picture), ink);
 }
 
 void LayerStack::end_group() {
   if (group_.empty()) return;
-  RasterResult gaps = gaps_filled_by(std::move(originals_of_group_).result(),
-                                     std::move(group_).result(), pixels_per_unit_);
+  RasterResult gaps = cut_to_gaps(std::move(originals_of_group_).result(),
+                                  std::move(group_).result(), pixels_per_unit_);
   if (!filled_range(gaps.image).empty())
     originals_.add(cropped_to_filled(std::move(gaps), pixels_per_unit_), {255, blending_});
   group_ = originals_of_group_ = Composition(pixels_per_unit_);
 }
 
-std::optional<RasterResult> LayerStack::originals() && {
+std::optional<RasterResult> LayerStack::behind() && {
   end_group();
   if (originals_.empty()) return {};
   return std::move(originals_).result();
 }
 
 RasterResult LayerStack::result() && {
-  auto behind = std::move(*this).originals();
+  auto behind = std::move(*this).behind();
   if (!behind) return std::move(layers_).result();
   Composition all(pixels_per_unit_);
   all.add(std::move(*behind));

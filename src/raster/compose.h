@@ -55,33 +55,35 @@ class Composition {
   std::optional<Layer> group_;  ///< the base with what is clipped to it; none if nothing is
 };
 
-/// Layers from the bottom to the top, over what fills the gaps that they leave where they were
-/// before. Layers do not blend with that.
+/// How much of an undeformed picture, its original, lies behind the layers: all of it, or only what
+/// fills the gaps of its own layer. Then, the two together have the larger alpha of the two.
+enum class Originals { whole, in_gaps };
+
+/// Layers from the bottom to the top, over their originals, with which they do not blend.
 class LayerStack {
  public:
-  /// With `cuts`, only what fills gaps is left of an original: together with its layer, it has the
-  /// larger alpha of the two. Otherwise, originals lie whole behind all layers.
-  LayerStack(double pixels_per_unit, bool cuts)
+  LayerStack(double pixels_per_unit, Originals originals)
       : pixels_per_unit_(pixels_per_unit),
-        cuts_(cuts),
+        shown_(originals),
         layers_(pixels_per_unit),
         originals_(pixels_per_unit),
         group_(pixels_per_unit),
         originals_of_group_(pixels_per_unit) {}
 
-  /// Adds a layer, as Composition::add() does. Either all layers have originals, or none has.
+  /// Adds a layer, as Composition::add() does, and its original if it can be seen. What is clipped
+  /// to a layer has the gaps of that layer.
   void add(RasterResult picture, const LayerInk& ink, std::optional<RasterResult> original = {});
   bool empty() const { return layers_.empty(); }
-  /// What fills the gaps; none if nothing does.
-  std::optional<RasterResult> originals() &&;
-  /// The layers over what fills their gaps. There must be a layer.
+  /// What lies behind the layers; none if there is nothing.
+  std::optional<RasterResult> behind() &&;
+  /// The layers over what lies behind them. There must be a layer.
   RasterResult result() &&;
 
  private:
   void end_group();
 
   double pixels_per_unit_;
-  bool cuts_;
+  Originals shown_;
   Composition layers_, originals_;
   Composition group_, originals_of_group_;  ///< the last layer, with what is clipped to it
   Blending blending_ = Blending::normal;    ///< of that layer

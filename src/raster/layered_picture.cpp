@@ -8,7 +8,6 @@
 #include "raster/compose.h"
 #include "raster/layer_drawing.h"
 #include "scene/layers.h"
-#include "scene/original.h"
 
 namespace holomorph {
 namespace {
@@ -48,7 +47,7 @@ class LayerDrawer {
     std::optional<DrawnLayer> drawn;
     if (const auto text = drawings_.drawing(it)) {
       std::vector<std::string> losses;
-      drawn = of_drawing(i, *text, "layer-", true, maker_.placement(i, options_.time), losses);
+      drawn = of_drawing(i, true, maker_.placement(i, options_.time), losses);
       for (const std::string& loss : losses) losses_.push_back(drawn->name + ": " + loss);
     } else if (const auto pixels = maker_.layer(i, options_)) {
       drawn = on_canvas(*pixels, canvas_, options_.scale, title_of_layer(scene_, i));
@@ -70,20 +69,19 @@ class LayerDrawer {
       return drawings_.drawing(*layer) != nullptr;
     });
     if (!any || !maker_.has_opaque_originals(options_.time)) {
-      const auto original = maker_.originals(options_);
+      const auto original = maker_.behind(options_);
       if (!original) return all;
       all.push_back(on_canvas(*original, canvas_, options_.scale, "Original"));
-      if (any) losses_.push_back("the original behind the layers is written as pixels");
+      if (any) losses_.push_back("Background: the original is written as pixels");
       return all;
     }
     for (size_t i = 0; i < scene_.layers.size(); ++i) {
       if (!maker_.draws(i)) continue;
       const auto text = drawings_.drawing(*scene_.layers[i]);
       std::optional<DrawnLayer> drawn;
-      std::vector<std::string> same;  // as those of the layer
+      std::vector<std::string> ignored_losses;  // those of the layer
       if (text)
-        drawn = of_drawing(i, *text, "original-", false,
-                           maker_.original_placement(i, options_.time), same);
+        drawn = of_drawing(i, false, {}, ignored_losses);
       else if (const auto pixels = maker_.original(i, options_))
         drawn = on_canvas(*pixels, canvas_, options_.scale, "");
       if (!drawn) continue;
@@ -104,15 +102,15 @@ class LayerDrawer {
   }
 
  private:
-  DrawnLayer of_drawing(size_t i, const std::string& text, const std::string& prefix, bool bent,
-                        const Similarity& placement, std::vector<std::string>& losses) {
+  DrawnLayer of_drawing(size_t i, bool bent, const Similarity& placement,
+                        std::vector<std::string>& losses) {
     const Layer& it = *scene_.layers[i];
     const Picture* picture = drawings_.find(*it.image);
-    const SourceDrawing source{text, it.image->file, *picture->image};
+    const SourceDrawing source{*drawings_.drawing(it), it.image->file, *picture->image};
     const Similarity to_canvas{options_.scale, canvas_.corner, 0};
     const DrawingPlace place{composed(to_canvas, placement),
                              static_cast<double>(canvas_.image.height),
-                             prefix + std::to_string(i + 1) + "-"};
+                             (bent ? "layer-" : "original-") + std::to_string(i + 1) + "-"};
     DrawnLayer drawn;
     drawn.name = title_of_layer(scene_, i);
     drawn.drawing = bent ? layer_drawing(source, it.deformation, scene_.animation.linear_blend,

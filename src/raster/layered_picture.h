@@ -9,7 +9,7 @@
 namespace holomorph {
 
 /// The posed layers of a scene, hidden ones too, and the picture that they make together. The
-/// original pictures, if they are the background, become the lowest layer. Arguments and errors are
+/// original pictures lie behind them, if they are the background. Arguments and errors are
 /// those of picture_of(). The view in `options` is ignored. If `keeps_drawings` is set, layers of
 /// SVG files in `other_pictures` are bent drawings; see layer_drawing(). Calls `keep_going` on this
 /// thread from time to time; an exception from it ends the work and is rethrown.

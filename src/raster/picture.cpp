@@ -121,14 +121,15 @@ class PictureMaker::LayerMaker {
     job.placement = placement;
     return rasterized(job);
   }
-  Similarity placing_motion(const std::optional<double>& time) {
-    if (!source_ || !deformation_.has_cage()) return {};
+  std::optional<Similarity> placing_motion(const std::optional<double>& time) {
+    if (!source_ || !deformation_.has_cage()) return Similarity{};
     const VectorXc& f = positions_at(time);
     return holomorph::placing_motion(deformation_, is_resized() ? page_ : source_->box(),
                                      *prepared_->mesh, as_span(f));
   }
   /// Whether the undeformed picture covers its rectangle.
-  bool is_opaque() {
+  bool is_opaque(const std::optional<double>& time) {
+    show_frame(time);
     if (!opaque_) opaque_ = source_ && holomorph::is_opaque(*source_);
     return *opaque_;
   }
@@ -317,30 +318,43 @@ std::optional<RasterResult> PictureMaker::layer(size_t number, const PictureOpti
 
 std::optional<RasterResult> PictureMaker::original(size_t number, const PictureOptions& options) {
   LayerMaker& layer = *layers_[number];
-  if (!layer.source()) return {};
-  return layer.original(frame_of(options), original_placement(number, options.time));
+  const auto placement = original_placement(number, options.time);
+  if (!layer.source() || !placement) return {};
+  return layer.original(frame_of(options), *placement);
 }
 
 bool PictureMaker::has_opaque_originals(const std::optional<double>& time) {
-  for (size_t i = 0; i < layers_.size(); ++i)
-    if (draws(i) && (is_blended(*scene_.layers[i]) || !layers_[i]->is_opaque() ||
-                     !is_identity(original_placement(i, time))))
-      return false;
+  for (size_t i = 0; i < layers_.size(); ++i) {
+    if (!draws(i)) continue;
+    if (is_blended(*scene_.layers[i]) || !layers_[i]->is_opaque(time)) return false;
+    const auto placement = original_placement(i, time);
+    if (!placement || !is_identity(*placement)) return false;
+  }
   return true;
+}
+
+bool PictureMaker::may_have_gaps(size_t layer, const std::optional<double>& time) {
+  return scene_.layers[layer]->deformation.has_cage() ||
+         original_placement(layer, time) != placement(layer, time);
 }
 
 LayerStack PictureMaker::stack(const PictureOptions& options, bool with_originals) {
   const Frame frame = frame_of(options);
-  LayerStack stack(options.scale, with_originals && !has_opaque_originals(options.time));
-  for (size_t i = 0; i < layers_.size(); ++i)
-    if (draws(i))
-      stack.add(layers_[i]->picture(frame, placement(i, options.time)), ink_of(scene_, i),
-                with_originals ? original(i, options) : std::nullopt);
+  const bool whole = with_originals && has_opaque_originals(options.time);
+  LayerStack stack(options.scale, whole ? Originals::whole : Originals::in_gaps);
+  for (size_t i = 0; i < layers_.size(); ++i) {
+    if (!draws(i)) continue;
+    std::optional<RasterResult> original;
+    if (with_originals && may_have_gaps(clip_base(scene_, i).value_or(i), options.time))
+      original = this->original(i, options);
+    stack.add(layers_[i]->picture(frame, placement(i, options.time)), ink_of(scene_, i),
+              std::move(original));
+  }
   return stack;
 }
 
-std::optional<RasterResult> PictureMaker::originals(const PictureOptions& options) {
-  return stack(options, true).originals();
+std::optional<RasterResult> PictureMaker::behind(const PictureOptions& options) {
+  return stack(options, true).behind();
 }
 
 RasterResult PictureMaker::picture(const PictureOptions& options) {
@@ -372,7 +386,8 @@ Similarity PictureMaker::placement(size_t layer, const std::optional<double>& ti
   });
 }
 
-Similarity PictureMaker::original_placement(size_t layer, const std::optional<double>& time) {
+std::optional<Similarity> PictureMaker::original_placement(size_t layer,
+                                                           const std::optional<double>& time) {
   size_t lowest = 0;
   while (lowest < layer && !draws(lowest)) ++lowest;
   return holomorph::original_placement(scene_, layer, lowest,
@@ -426,7 +441,7 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
         for (Complex& z : points) z = placed(z);
       }
       if (has_originals && layer.source())
-        add_corners(points, layer.page(), original_placement(i, time));
+        add_corners(points, layer.page(), original_placement(i, time).value_or(Similarity{}));
       return points;
     };
     if (!include_motion(box, points_at, motion_parts(i), keep_going)) return {};

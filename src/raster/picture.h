@@ -46,14 +46,15 @@ class PictureMaker {
   /// Shows another picture, of any size, in the rectangle of the edited layer's picture, and stops
   /// its film. It must stay alive until the next call.
   void show(const Image& picture);
-  /// A layer as it is before bending; none if it has no picture.
+  /// A layer as it is before bending. None if it has no picture, or is mirrored.
   std::optional<RasterResult> original(size_t number, const PictureOptions& options);
-  /// What fills the gaps of the picture where the visible layers were before bending; none if there
-  /// are none.
-  std::optional<RasterResult> originals(const PictureOptions& options);
-  /// Whether originals cover what they fill, so that they lie whole behind the layers.
+  /// What lies behind the layers if the background is the original; none if there is nothing.
+  std::optional<RasterResult> behind(const PictureOptions& options);
+  /// Whether originals can lie whole behind the layers: at this time, all pictures are opaque, and
+  /// their originals lie at the same place. Solves the maps of layers in boxes.
   bool has_opaque_originals(const std::optional<double>& time);
-  /// The part of the plane that the whole motion covers, including the pictures' own rectangles.
+  /// The part of the plane that the whole motion covers, including the pictures' own rectangles and
+  /// their originals, if these are the background.
   /// The result does not depend on which frames are drawn. Calls `keep_going` from time to time and
   /// returns none as soon as it returns false. Cost: one map per keyframe and about ten between
   /// each pair of consecutive keyframes.
@@ -65,8 +66,8 @@ class PictureMaker {
   bool draws(size_t layer) const;
   /// Where the plane of a layer lies in the scene's plane.
   Similarity placement(size_t layer, const std::optional<double>& time);
-  /// The same for its undeformed picture.
-  Similarity original_placement(size_t layer, const std::optional<double>& time);
+  /// The same for its undeformed picture, if it has one; see scene/original.h.
+  std::optional<Similarity> original_placement(size_t layer, const std::optional<double>& time);
 
  private:
   class LayerMaker;
@@ -77,8 +78,9 @@ class PictureMaker {
     std::optional<Box> stage = {};  ///< as in RasterJob
   };
   Frame frame_of(const PictureOptions& options) const;
-  /// The visible layers.
+  /// The visible layers, with the originals of those that may have gaps.
   LayerStack stack(const PictureOptions& options, bool with_originals);
+  bool may_have_gaps(size_t layer, const std::optional<double>& time);
   std::vector<MotionPart> motion_parts(size_t layer);
 
   const Scene& scene_;

@@ -54,9 +54,9 @@ Box placed_box(const RasterJob& job) {
 /// it and the points where mesh edges cross its border.
 Box image_of(const Box& rectangle, const RasterJob& job, const Mesh& mesh,
              std::span<const Complex> at) {
-  const auto& [left, bottom, right, top] = rectangle;
-  const auto depth = [=](Complex z) {
-    return std::array{z.real() - left, right - z.real(), z.imag() - bottom, top - z.imag()};
+  const auto depth = [&](Complex z) {
+    return std::array{z.real() - rectangle.left, rectangle.right - z.real(),
+                      z.imag() - rectangle.bottom, rectangle.top - z.imag()};
   };
   Box box;
   for (const Triangle& t : mesh.triangles)

@@ -27,26 +27,27 @@ Compositor::~Compositor() {
 }
 
 void Compositor::resize(int width, int height) {
-  glBindRenderbuffer(GL_RENDERBUFFER, stencil_);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
-  for (Target* target : targets()) {
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, target->texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target->texture, 0);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              stencil_);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      width_ = height_ = 0;
-      glBindFramebuffer(GL_FRAMEBUFFER, 0);
-      throw Error(ErrorKind::failed, "this graphics driver cannot draw into a texture");
-    }
-  }
   width_ = width;
   height_ = height;
+  fills_gaps_ = false;
+  glBindRenderbuffer(GL_RENDERBUFFER, stencil_);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width, height);
+  for (const Target* target : {&under_, &base_, &over_, &result_}) allocate(*target);
+}
+
+void Compositor::allocate(const Target& target) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, target.texture);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width_, height_, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, stencil_);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  width_ = height_ = 0;
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  throw Error(ErrorKind::failed, "this graphics driver cannot draw into a texture");
 }
 
 void Compositor::begin(int width, int height) {
@@ -113,6 +114,10 @@ void Compositor::end_layer(const Ink& ink) {
 
 void Compositor::keep() {
   end_base();
+  if (!std::exchange(fills_gaps_, true)) {
+    allocate(kept_);
+    allocate(behind_);
+  }
   std::swap(kept_, under_);
   clear(under_);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -17,7 +17,8 @@ struct Ink {
 
 /// Layers are drawn one by one into a texture of the window's size, and combined. Needs a current
 /// OpenGL context. Call begin(), then begin_layer() and end_layer() for each layer from bottom to
-/// top, then finish().
+/// top, then finish(). What lies behind all layers comes first: for each part of it, the layers
+/// whose gaps it fills, keep(), the part, and fill_gaps().
 class Compositor {
  public:
   Compositor();
@@ -34,10 +35,10 @@ class Compositor {
   void end_layer(const Ink& ink);
   /// Keeps the result, and starts again with nothing.
   void keep();
-  /// Adds what of the result fills the gaps of the one that was kept to what lies behind all
-  /// layers, and starts again with nothing. Together, they have the larger alpha of the two.
+  /// Cuts the result to the gaps of the kept one, adds it to what lies behind all layers, and
+  /// starts again with nothing. Together, the two have the larger alpha of both.
   void fill_gaps(int blending);
-  /// Draws the result, over what lies behind it, over the window's content. The rectangle is in
+  /// Draws the result and what lies behind it over the window's content. The rectangle is in
   /// framebuffer px with its origin at the lower left.
   void finish(int left, int bottom, int width, int height);
 
@@ -47,6 +48,7 @@ class Compositor {
   };
   std::array<Target*, 6> targets() { return {&under_, &base_, &over_, &result_, &kept_, &behind_}; }
   void resize(int width, int height);
+  void allocate(const Target& target);
   static void clear(const Target& target);
   void blend(Target& under, const Target& over, const Ink& ink);
   void combine(const Target& into, const Target& under, const Target& over, const Ink& ink);
@@ -55,8 +57,8 @@ class Compositor {
 
   Program program_;
   Target under_, base_, over_, result_, kept_, behind_;
-  bool has_behind_ = false;
-  std::optional<Ink> base_ink_;  ///< none: nothing has been drawn into base_
+  bool has_behind_ = false, fills_gaps_ = false;  ///< kept_ and behind_ are allocated
+  std::optional<Ink> base_ink_;                   ///< none: nothing has been drawn into base_
   unsigned array_ = 0, stencil_ = 0;
   int width_ = 0, height_ = 0;
 };

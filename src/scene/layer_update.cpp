@@ -286,8 +286,8 @@ void LayerUpdate::apply(Layer& layer, const PixelPosition& carried) const {
   image.moved = {image.moved.x + moved.x, image.moved.y + moved.y};
   const auto translation = [](int x, int y) { return Similarity{1, 0, Complex(x, y)}; };
   const Similarity by = translation(moved.x - carried.x, moved.y - carried.y);
-  // What its parent carries moves by the rest, in its own directions and size. What did not move in
-  // the file stays where it is in the scene.
+  // What its parent carries moves by the difference, in its own coordinates. What has not moved in
+  // the file stays where it is in the scene if the parent is at rest.
   if (moved != carried)
     layer.placement =
         moved == PixelPosition{} ? composed(by, layer.placement) : composed(layer.placement, by);

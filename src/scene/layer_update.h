@@ -55,8 +55,9 @@ bool needs_layer_update(std::span<const Layer> layers, const std::string& file,
 /// Finds the layers of a file that the layers of one or more scenes show. A layer is found by its
 /// id in a PSD file, or by its name with those of its groups if it is unique, or by its pixels, in
 /// this order. Where an id and a name contradict each other, the pixels decide whether ids count.
-/// Where a layer with the same pixels has moved, the planes that show it move with it. For an
-/// attached layer, the distance by which its parent carries it is subtracted. A canvas that has
+/// Where a layer with the same pixels has moved, the planes that show it move with it. An
+/// attached layer is moved by the difference to its parent in its own coordinates, or back, if it
+/// has not moved in the file itself. A canvas that has
 /// grown or was cropped does not move anything. Throws Error, also if a choice names no layer.
 /// Cost: decodes all layers of the file.
 LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,

@@ -28,20 +28,33 @@ bool is_box(const Cage& cage, const Box& box) {
 
 }  // namespace
 
-Similarity placing_motion(const Deformation& deformation, const Box& picture, const Mesh& mesh,
-                          std::span<const Complex> positions) {
+std::optional<Similarity> placing_motion(const Deformation& deformation, const Box& picture,
+                                         const Mesh& mesh, std::span<const Complex> positions) {
   if (!deformation.has_cage() || !is_box(deformation.rest, picture) ||
       positions.size() != mesh.vertices.size())
-    return {};
-  return similarity_between(mesh.vertices, positions);
+    return Similarity{};
+  // Not all vertices: pins inside of a held frame do not move the picture.
+  Points from, to;
+  for (const int v : mesh.cage_vertices) {
+    from.push_back(mesh.vertices[static_cast<size_t>(v)]);
+    to.push_back(positions[static_cast<size_t>(v)]);
+  }
+  if (signed_area(Polygon(from)) * signed_area(Polygon(to)) < 0) return {};
+  return similarity_between(from, to);
 }
 
-Similarity original_placement(const Scene& scene, size_t layer, size_t lowest,
-                              const std::function<Similarity(size_t layer)>& motion) {
-  const auto moved = [&](size_t i) { return i == lowest ? Similarity{} : motion(i); };
-  const Similarity placement = placement_of(
-      scene, layer, [&](size_t child) { return moved(*parent_of(scene, *scene.layers[child])); });
-  const Similarity own = moved(layer);
+std::optional<Similarity> original_placement(const Scene& scene, size_t layer, size_t lowest,
+                                             const PlacingMotion& motion) {
+  bool is_mirrored = false;
+  const auto moved = [&](size_t i) {
+    const auto by = i == lowest ? Similarity{} : motion(i);
+    is_mirrored |= !by;
+    return by.value_or(Similarity{});
+  };
+  const Similarity own = moved(layer), placement = placement_of(scene, layer, [&](size_t child) {
+                                         return moved(*parent_of(scene, *scene.layers[child]));
+                                       });
+  if (is_mirrored) return {};
   return is_identity(own) ? placement : composed(placement, own);
 }
 

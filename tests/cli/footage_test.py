@@ -269,6 +269,23 @@ class Footage(Case):
         self.assertGreater(alpha[:, :WIDTH // 2 - 4].min(), 240)
         self.assertLess(alpha[:, WIDTH // 2 + 4:].max(), 15)
 
+    def test_the_original_behind_a_faint_frame_does_not_shine_through(self):
+        """Opaque and faint frames take turns; none is drawn as if it were like the one before."""
+        alphas = [255, 120, 255, 60]
+        for k, alpha in enumerate(alphas):
+            Image.new("RGBA", (WIDTH, HEIGHT), (200, 60, 30, alpha)).save(self.path(f"f-{k}.png"))
+        cage = {"rest": [[[20, 20]], [[WIDTH - 20, 20]], [[WIDTH - 20, HEIGHT - 20]], [[20, HEIGHT - 20]]]}
+        scene = self.write("faint.json", {"format": "holomorph", "version": 1, "image": {"file": "f-0.png", "clip": {"frames_per_second": 10}},
+                                          "animation": {"frames_per_second": 10}, "cage": cage, "background": "original"})
+        self.good("render", scene, "--frames", "all", "--crop", "--out", self.path("drawn.png"))
+        whole = [numpy.asarray(Image.open(self.path(name)).convert("RGBA")) for name in sorted(os.listdir(self.folder)) if name.startswith("drawn-")]
+        self.assertEqual(len(whole), len(alphas))
+        for k, alpha in enumerate(alphas):
+            self.good("render", scene, "--time", str(k / 10), "--crop", "--out", self.path("one.png"), "--force")
+            alone = numpy.asarray(Image.open(self.path("one.png")).convert("RGBA"))
+            self.assertEqual(numpy.abs(alone.astype(int) - whole[k]).max(), 0, k)
+            self.assertLessEqual(numpy.abs(alone[5:-5, 5:-5, 3].astype(int) - alpha).max(), 1, k)
+
     def test_a_new_scene_of_a_film_has_its_rate_and_length(self):
         encode(self.path("film.mp4"), 33, 25, *H264)
         self.good("new", self.path("film.mp4"), "--out", self.path("new.json"))

@@ -485,10 +485,10 @@ class Meshes(Case):
         layer["image"] = {"file": "green.png"}
         layers = [{**layer, "name": "Low"}, {**layer, "name": "High", "blending": "multiply", "clipped": True}]
         both = ["High: its clipping is not kept", "High: its blending mode is not kept"]
-        for background, said in (({}, []), ({"background": "#204060"}, ["the color of the background is not kept"]),
-                                 ({"background": "original"}, ["the original behind the layers is not kept"])):
+        for background, said in (({}, []), ({"background": "#204060"}, ["Background: its color is not kept"]),
+                                 ({"background": "original"}, ["Background: the original is not kept"])):
             scene = self.write("said.json", {"format": "holomorph", "version": 2, "layers": layers, **background})
-            for kind, out in (("glb", "said.glb"), ("godot", "said.tscn"), ("spine", "spine.json")):
+            for kind, out in (("glb", "said.glb"), ("godot", "said.tscn"), ("godot3", "said3.tscn"), ("spine", "spine.json")):
                 stderr = self.good("export", scene, "--format", kind, "--out", self.path(out), "--force").stderr
                 self.assertEqual(stderr.splitlines()[:-1], ["holomorph: " + text for text in said + both], (kind, background))
 

@@ -42,15 +42,6 @@ RenderFrame frame_at(const Viewport& view, const CanvasFrame& at) {
   return frame;
 }
 
-bool is_moved(const Workspace& workspace, const Layer& layer) {
-  return !is_identity(workspace.placement(layer_index(workspace.document.scene(), layer.id)));
-}
-
-/// Where a layer was placed, on undeformed layers.
-Similarity resting_placement(const Scene& scene, const Layer& layer) {
-  return placement_of(scene, layer_index(scene, layer.id), [](size_t) { return Similarity{}; });
-}
-
 Ink canvas_ink(const Scene& scene, size_t layer) {
   const Layer& it = *scene.layers[layer];
   return {static_cast<int>(it.blending), it.opacity, clip_base(scene, layer).has_value()};
@@ -62,6 +53,143 @@ Color color_of(const Background& background) {
   for (size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(background.color[k]) / 255;
   return color;
 }
+
+/// A layer that is drawn.
+struct ShownLayer {
+  const Layer& layer;
+  size_t index = 0;  ///< in the scene
+  LayerPainter& painter;
+};
+
+/// Draws layers between two fractions of the canvas's width.
+class PartDrawer {
+ public:
+  PartDrawer(const Workspace& workspace, const CanvasFrame& at, RenderFrame frame,
+             std::vector<ShownLayer> shown)
+      : workspace_(workspace),
+        scene_(workspace.document.scene()),
+        at_(at),
+        frame_(std::move(frame)),
+        shown_(std::move(shown)) {}
+
+  /// The pictures at rest. If `edited_only`, there is only the edited layer.
+  void show_at_rest(bool edited_only) {
+    at_rest_ = true;
+    placed_ = !edited_only;
+  }
+  /// The layers lie over their originals.
+  void show_originals() { has_originals_ = true; }
+
+  /// Whether the layers must be combined away from the window, because of opacities and blending
+  /// modes, or to find the gaps that originals fill. Opaque originals can be drawn behind the
+  /// layers as they are.
+  bool combines() const {
+    return std::ranges::any_of(shown_, [&](const ShownLayer& shown) {
+      if (is_blended(shown.layer)) return true;
+      if (!has_originals_) return false;
+      const auto placement = workspace_.original_placement(shown.index);
+      return !shown.painter.is_opaque() || !placement || !is_identity(*placement);
+    });
+  }
+
+  /// The page alone, as layers that are combined or were moved away from it need it.
+  void draw_page(const ShownLayer& of) {
+    RenderFrame page = frame_;
+    page.content = Content::nothing;
+    paint(of, page);
+  }
+  void draw(Compositor* compositor) {
+    compositor_ = compositor;
+    const bool places = has_originals_ || !is_identity(workspace_.placement(shown_[0].index));
+    if (compositor_ || places) draw_page(shown_[0]);
+    if (compositor_) compositor_->begin(frame_.window_width, frame_.window_height);
+    if (has_originals_ && compositor_) fill_gaps();
+    if (has_originals_ && !compositor_)
+      for (const ShownLayer& shown : shown_) draw_original(shown);
+    const std::vector<OnionSkin> skins = workspace_.onion_skins();
+    for (const ShownLayer& shown : shown_) {
+      RenderFrame posed = posed_frame(shown);
+      if (is_edited(shown)) {
+        posed.wireframe = workspace_.display.show_mesh;
+        for (const OnionSkin& skin : skins)
+          posed.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
+      }
+      draw(shown, std::move(posed));
+    }
+    if (!compositor_) return;
+    const auto px = [](double value) { return static_cast<int>(value); };
+    const int bottom = frame_.window_height - px(frame_.canvas_top) - px(frame_.canvas_height),
+              first = static_cast<int>(std::lround(frame_.from * px(frame_.canvas_width))),
+              last = static_cast<int>(std::lround(frame_.to * px(frame_.canvas_width)));
+    compositor_->finish(px(frame_.canvas_left) + first, bottom, last - first,
+                        px(frame_.canvas_height));
+  }
+
+ private:
+  bool is_edited(const ShownLayer& shown) const { return &shown.layer == &scene_.layer(); }
+
+  RenderFrame posed_frame(const ShownLayer& shown) const {
+    RenderFrame drawing = frame_;
+    const Similarity resting =
+        placement_of(scene_, shown.index, [](size_t) { return Similarity{}; });
+    set_view(drawing,
+             at_rest_ && placed_ ? workspace_.display.viewport.of_layer(resting)
+                                 : workspace_.layer_view(shown.index),
+             at_);
+    if (at_rest_ || (is_edited(shown) && workspace_.at_rest()))
+      drawing.placement = Placement::at_rest;
+    return drawing;
+  }
+
+  /// Adds what fills the gaps of each layer, together with what is clipped to it.
+  void fill_gaps() {
+    for (size_t first = 0, end; first < shown_.size(); first = end) {
+      end = first + 1;
+      while (end < shown_.size() && canvas_ink(scene_, shown_[end].index).clipped) ++end;
+      const size_t base = shown_[first].index;
+      const auto placement = workspace_.original_placement(base);
+      const bool may_have_gaps =
+          shown_[first].layer.deformation.has_cage() || placement != workspace_.placement(base);
+      if (!placement || !may_have_gaps) continue;
+      for (size_t i = first; i < end; ++i) draw(shown_[i], posed_frame(shown_[i]));
+      compositor_->keep();
+      for (size_t i = first; i < end; ++i) draw_original(shown_[i]);
+      compositor_->fill_gaps(static_cast<int>(shown_[first].layer.blending));
+    }
+  }
+
+  void draw_original(const ShownLayer& shown) {
+    const auto placement = workspace_.original_placement(shown.index);
+    if (!placement) return;
+    RenderFrame drawing = frame_;
+    drawing.content = Content::original;
+    set_view(drawing, workspace_.display.viewport.of_layer(*placement), at_);
+    draw(shown, std::move(drawing));
+  }
+
+  void draw(const ShownLayer& shown, RenderFrame drawing) {
+    if (!compositor_) return paint(shown, std::move(drawing));
+    drawing.over = true;
+    compositor_->begin_layer();
+    paint(shown, std::move(drawing));
+    compositor_->end_layer(canvas_ink(scene_, shown.index));
+  }
+
+  void paint(const ShownLayer& shown, RenderFrame drawing) {
+    shown.painter.draw(workspace_.maps.of(shown.layer.id),
+                       is_edited(shown) ? workspace_.display.view : View::image,
+                       std::move(drawing));
+    frame_.over = true;
+  }
+
+  const Workspace& workspace_;
+  const Scene& scene_;
+  const CanvasFrame& at_;
+  RenderFrame frame_;
+  std::vector<ShownLayer> shown_;
+  bool at_rest_ = false, placed_ = false, has_originals_ = false;
+  Compositor* compositor_ = nullptr;  ///< null: layers are drawn directly
+};
 
 }  // namespace
 
@@ -117,105 +245,31 @@ void Canvas::draw_part(Workspace& workspace, const CanvasFrame& at, double from,
     frame.background = frame.backdrop = frame.other_backdrop = color_of(scene.background);
   const Layer& edited = scene.layer();
   edited_ = &painter_of(edited);
-  std::vector<const Layer*> drawn;
-  for (const SharedLayer& shared : scene.layers) {
-    const Layer& layer = *shared;
-    const bool shows = edited_only || is_shown(scene, layer_index(scene, layer.id));
+  std::vector<ShownLayer> shown;
+  for (size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = *scene.layers[i];
+    const bool shows = edited_only || is_shown(scene, i);
     if (&layer != &edited && (edited_only || !shows)) continue;
     update_picture(workspace, layer);
     if (!shows) continue;
-    painter_of(layer).update_map(workspace.maps.of(layer.id),
-                                 &layer == &edited ? workspace.display.view : View::image,
-                                 workspace.display.automatic_range);
-    if (painter_of(layer).is_settling()) wake_();
-    drawn.push_back(&layer);
+    LayerPainter& painter = painter_of(layer);
+    painter.update_map(workspace.maps.of(layer.id),
+                       &layer == &edited ? workspace.display.view : View::image,
+                       workspace.display.automatic_range);
+    if (painter.is_settling()) wake_();
+    shown.push_back({layer, i, painter});
   }
-  if (at.page_alone) drawn.clear();
-  const bool has_originals = scene.background.fill == Background::Fill::original && !edited_only;
-  // With opacities or blending modes, the page is drawn alone, and the layers are combined away
-  // from the window. The page is also drawn alone if its layer has been moved away from it.
-  const auto original_placement = [&](const Layer& layer) {
-    return workspace.original_placement(layer_index(scene, layer.id),
-                                        layer_index(scene, drawn.front()->id));
-  };
-  const bool combines =
-      !edited_only &&
-      (std::ranges::any_of(drawn, [](const Layer* layer) { return is_blended(*layer); }) ||
-       // Opaque originals can be drawn behind the layers as they are.
-       (has_originals && !std::ranges::all_of(drawn, [&](const Layer* layer) {
-          return painter_of(*layer).is_opaque() && is_identity(original_placement(*layer));
-        })));
-  const auto paint = [&](const Layer& layer, RenderFrame drawing) {
-    painter_of(layer).draw(workspace.maps.of(layer.id),
-                           &layer == &edited ? workspace.display.view : View::image,
-                           std::move(drawing));
-    frame.over = true;
-  };
-  const bool places = has_originals || (!drawn.empty() && is_moved(workspace, *drawn.front()));
-  if (drawn.empty() || combines || places) {
-    RenderFrame page = frame;
-    page.content = Content::nothing;
-    paint(drawn.empty() ? edited : *drawn.front(), page);
-  }
-  if (drawn.empty()) return;
-  if (combines) {
-    if (!compositor_) compositor_ = std::make_unique<Compositor>();
-    compositor_->begin(frame.window_width, frame.window_height);
-  }
-  const auto draw = [&](const Layer& layer, RenderFrame drawing) {
-    if (!combines) return paint(layer, std::move(drawing));
-    drawing.over = true;
-    compositor_->begin_layer();
-    paint(layer, std::move(drawing));
-    compositor_->end_layer(canvas_ink(scene, layer_index(scene, layer.id)));
-  };
-  const std::vector<OnionSkin> skins = workspace.onion_skins();
-  const auto posed = [&](const Layer& layer) {
-    RenderFrame drawing = frame;
-    if (original && !edited_only)
-      set_view(drawing, workspace.display.viewport.of_layer(resting_placement(scene, layer)), at);
-    else
-      set_view(drawing, workspace.layer_view(layer_index(scene, layer.id)), at);
-    if (original || (&layer == &edited && workspace.at_rest()))
-      drawing.placement = Placement::at_rest;
-    return drawing;
-  };
-  const auto as_it_was = [&](const Layer& layer) {
-    RenderFrame drawing = frame;
-    drawing.content = Content::original;
-    set_view(drawing, workspace.display.viewport.of_layer(original_placement(layer)), at);
-    return drawing;
-  };
-  if (has_originals && !combines)
-    for (const Layer* layer : drawn) draw(*layer, as_it_was(*layer));
-  if (has_originals && combines) {
-    for (size_t first = 0, end; first < drawn.size(); first = end) {
-      end = first + 1;  // a layer, and what is clipped to it
-      while (end < drawn.size() && canvas_ink(scene, layer_index(scene, drawn[end]->id)).clipped)
-        ++end;
-      for (size_t i = first; i < end; ++i) draw(*drawn[i], posed(*drawn[i]));
-      compositor_->keep();
-      for (size_t i = first; i < end; ++i) draw(*drawn[i], as_it_was(*drawn[i]));
-      compositor_->fill_gaps(static_cast<int>(drawn[first]->blending));
-    }
-  }
-  for (const Layer* layer : drawn) {
-    RenderFrame drawing = posed(*layer);
-    if (layer == &edited) {
-      drawing.wireframe = workspace.display.show_mesh;
-      for (const OnionSkin& skin : skins)
-        drawing.ghosts.push_back({as_span(skin.f), onion_color(skin.later)});
-    }
-    draw(*layer, std::move(drawing));
-  }
-  if (combines) {
-    const auto px = [](double value) { return static_cast<int>(value); };
-    const int bottom = frame.window_height - px(frame.canvas_top) - px(frame.canvas_height),
-              first = static_cast<int>(std::lround(from * px(frame.canvas_width))),
-              last = static_cast<int>(std::lround(to * px(frame.canvas_width)));
-    compositor_->finish(px(frame.canvas_left) + first, bottom, last - first,
-                        px(frame.canvas_height));
-  }
+  if (at.page_alone) shown.clear();
+  const bool is_empty = shown.empty();
+  PartDrawer drawer(workspace, at, std::move(frame), std::move(shown));
+  if (is_empty) return drawer.draw_page({edited, scene.edited, *edited_});
+  if (original)
+    drawer.show_at_rest(edited_only);
+  else if (scene.background.fill == Background::Fill::original && !edited_only)
+    drawer.show_originals();
+  const bool combines = !edited_only && drawer.combines();
+  if (combines && !compositor_) compositor_ = std::make_unique<Compositor>();
+  drawer.draw(combines ? compositor_.get() : nullptr);
 }
 
 Box Canvas::whole_pixels(const Box& box) {

@@ -64,9 +64,7 @@ LayerMark mark_of(const Image& image, const std::string& name) {
   return {name, sha256_hex(bytes), {image.left + left, image.top() - bottom}};
 }
 
-std::vector<DrawnLayer> background_layers(const LayeredPicture& picture) {
-  std::vector<DrawnLayer> layers = picture.originals;
-  if (!picture.background) return layers;
+DrawnLayer background_layer(const LayeredPicture& picture) {
   DrawnLayer layer;
   layer.name = "Background";
   layer.image = Image(picture.merged.width, picture.merged.height);
@@ -74,8 +72,7 @@ std::vector<DrawnLayer> background_layers(const LayeredPicture& picture) {
     std::ranges::copy(*picture.background, &layer.image.pixels[i]);
     layer.image.pixels[i + 3] = 255;
   }
-  layers.insert(layers.begin(), std::move(layer));
-  return layers;
+  return layer;
 }
 
 bool needs_group(const LayeredPicture& picture) {

@@ -58,18 +58,19 @@ struct DrawnLayer {
 struct LayeredPicture {
   std::vector<DrawnLayer> layers;
   Image merged;
-  /// A color below the layers, or the pictures before bending. Blending modes of layers do not mix
-  /// with them: where this matters, files have the layers in a group.
+  /// A color below the layers. Their blending modes do not mix with it, nor with the originals:
+  /// where this matters, files have the layers in a group.
   std::optional<std::array<std::uint8_t, 3>> background = {};
+  /// The pictures before bending, which lie below the layers; all of them are shown as they are.
   std::vector<DrawnLayer> originals = {};
   /// The size of a pixel in files that have a size, in units of 1/96 inch.
   double pixel_size = 1;
   /// What is not as in the scene, such as "Hat: its animation is left out".
   std::vector<std::string> losses = {};
 };
-/// What lies below the layers, the background's color as a layer.
-std::vector<DrawnLayer> background_layers(const LayeredPicture& picture);
-/// Whether the layers must be in a group so that they do not mix with the background.
+/// The layer of the background's color.
+DrawnLayer background_layer(const LayeredPicture& picture);
+/// Whether the layers must be in a group so that they do not mix with what lies below them.
 bool needs_group(const LayeredPicture& picture);
 
 /// A file format with layers.

@@ -154,7 +154,8 @@ std::string encode_ora(const LayeredPicture& picture) {
     node.append_attribute("composite-op") = mode_of(layer.blending);
     files.emplace_back(file, encode_png(layer.image));
   };
-  for (const DrawnLayer& layer : background_layers(picture)) add(stack, layer);
+  if (picture.background) add(stack, background_layer(picture));
+  for (const DrawnLayer& original : picture.originals) add(stack, original);
   if (needs_group(picture)) {
     stack = stack.prepend_child("stack");
     stack.append_attribute("name") = "Layers";

@@ -195,7 +195,8 @@ std::string layer_section(const LayeredPicture& picture) {
   DrawnLayer divider, group;
   divider.name = "</Layer group>";
   group.name = "Layers";
-  for (const DrawnLayer& layer : background_layers(picture)) add(layer);
+  if (picture.background) add(background_layer(picture));
+  for (const DrawnLayer& original : picture.originals) add(original);
   if (groups) add(divider, RecordKind::divider);
   for (const DrawnLayer& layer : picture.layers) add(layer);
   if (groups) add(group, RecordKind::group);

@@ -6,8 +6,7 @@
 namespace holomorph {
 
 /// The text of an SVG file in which layers are groups, named for Inkscape. Images are embedded as
-/// PNG. Where a clipped layer's base is partly transparent, the edges differ slightly from
-/// Blending's definition, because SVG has no operator for it in groups.
+/// PNG.
 std::string encode_svg(const LayeredPicture& picture);
 
 }  // namespace holomorph
