@@ -1,6 +1,5 @@
 // A picture that nothing is composited with keeps its bits. All others become floating-point
-// numbers until the end, because the rounding of many faint layers would be visible. Layers and
-// what lies behind them are rounded once more.
+// // numbers until the end, because the rounding of many faint layers would be visible.
 #include "raster/compose.h"
 
 #include <algorithm>
@@ -155,7 +154,19 @@ RasterResult Composition::result() && {
     fade(only.image, base_ink_);
     return only;
   }
-  const Layer layer = take_all();
+  return straight(take_all());
+}
+
+RasterResult Composition::over(Composition background) && {
+  const Layer above = take_all();
+  Layer all = background.take_all();
+  is_fine_ |= background.is_fine_;
+  enlarge(all, above);
+  blend(above, all, {});
+  return straight(all);
+}
+
+RasterResult Composition::straight(const Layer& layer) const {
   RasterResult result{Image(layer.width, layer.height), layer.corner};
   if (is_fine_) {
     result.image.fine.reserve(result.image.pixels.size());
@@ -244,12 +255,9 @@ std::optional<RasterResult> LayerStack::behind() && {
 }
 
 RasterResult LayerStack::result() && {
-  auto behind = std::move(*this).behind();
-  if (!behind) return std::move(layers_).result();
-  Composition all(pixels_per_unit_);
-  all.add(std::move(*behind));
-  all.add(std::move(layers_).result());
-  return std::move(all).result();
+  end_group();
+  if (originals_.empty()) return std::move(layers_).result();
+  return std::move(layers_).over(std::move(originals_));
 }
 
 Box filled_box(const RasterResult& result, double pixels_per_unit) {

@@ -33,6 +33,8 @@ class Composition {
   bool empty() const { return !base_; }
   /// The result in straight alpha, with fine pixels if a picture has some. There must be a picture.
   RasterResult result() &&;
+  /// The same over another result, with which it does not blend. It must not be empty either.
+  RasterResult over(Composition background) &&;
 
  private:
   using Pixel = std::array<float, 4>;  ///< premultiplied, 0 to 1
@@ -46,6 +48,7 @@ class Composition {
   void enlarge(Layer& under, const Layer& over) const;
   /// Takes the base, with what is clipped to it, on what is below it.
   Layer take_all();
+  RasterResult straight(const Layer& layer) const;
 
   double pixels_per_unit_;
   bool is_fine_ = false;  ///< some picture has fine pixels
