@@ -325,8 +325,11 @@ LayerUpdate layer_update(std::span<const Layer> layers, const std::string& file,
   for (const Layer& layer : layers)
     if (before == PixelPosition{} && shows_layer_of(layer, file) && !is_lost(*layer.image))
       before = {layer.image->width, layer.image->height};
-  const PixelPosition now{files.layers(file).width, files.layers(file).height},
-      shift = shift_of_canvas(finder, before, now);
+  const FileLayers& in_file = files.layers(file);
+  // A file without layers, as another program may have saved it by mistake, has no canvas.
+  const PixelPosition now =
+      in_file.layers.empty() ? before : PixelPosition{in_file.width, in_file.height};
+  const PixelPosition shift = shift_of_canvas(finder, before, now);
   update.shift = shift;
   update.width = now.x;
   update.height = now.y;

@@ -121,6 +121,7 @@ std::unique_ptr<PreparedMap> prepared_map(const Deformation& deformation, Precis
   }
   check_coordinates(prepared->rest, static_cast<Index>(prepared->mesh->vertices.size()));
   prepared->rest.samples = prepared->mesh->vertices;
+  if (smooths) prepared->rest.drawn = prepared->mesh;
   if (same_mesh) prepared->between.store(previous->between.load());
   prepared->rest.derivative_samples =
       same_mesh ? previous->rest.derivative_samples : derivative_samples(*prepared->mesh);

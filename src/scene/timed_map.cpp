@@ -48,6 +48,7 @@ SampledMap TimedMap::at(const TimedFrame& frame, const Points& points) {
       Rest rest = prepared_->rest;
       rest.samples = points_ = points;
       rest.derivative_samples.clear();
+      rest.drawn.reset();
       at_points_ = method_named(prepared_->method).prepare(rest, nullptr);
     }
     return at_points_->deform(*frame.pose, {true});

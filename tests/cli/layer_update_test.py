@@ -177,6 +177,24 @@ class Updates(Case):
                 self.assertGreater(before[..., 3].max(), 0)
                 self.assert_same(self.drawn(window), before, moved)
 
+    def test_a_file_that_was_a_plain_picture_for_a_while_is_as_before(self):
+        for kind in ("ora", "ids.psd"):
+            with self.subTest(kind=kind):
+                art = Art(random.Random(4), 3)
+                self.start(art, kind)
+                self.write("s.json", self.scene())
+                before = self.drawn(self.BOX)
+                name = self.path(self.scene()["layers"][0]["image"]["file"])
+                with open(name, "rb") as file:
+                    whole = file.read()
+                for flat_size in ((art.width, art.height), (33, 77)):
+                    Image.new("RGBA", flat_size, (9, 8, 7, 255)).save(name, format="PNG")
+                    self.assertNotIn("canvas", self.good("update", self.path("s.json")).stderr)
+                    with open(name, "wb") as file:
+                        file.write(whole)
+                    self.good("update", self.path("s.json"))
+                    self.assert_same(self.drawn(self.BOX), before, flat_size)
+
     def test_new_layers_lie_where_the_canvas_does(self):
         """Layers of the scene were placed by hand, or have moved in the file, when the canvas grows and gets a layer."""
         for kind in ("ora", "ids.psd", "plain.psd"):

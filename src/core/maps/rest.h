@@ -86,6 +86,9 @@ struct Rest {
   /// Parameters of other methods by id, for methods that follow another method.
   std::map<std::string, Parameters> other_parameters = {};
   Precision precision = Precision::single;
+  /// A finer mesh whose vertices are the samples, for methods that solve on a coarser one: the
+  /// triangles that are drawn. Null if there is none.
+  std::shared_ptr<const Mesh> drawn = {};
   bool operator==(const Rest&) const = default;
 };
 

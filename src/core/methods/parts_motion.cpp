@@ -20,7 +20,7 @@ class PartsInterval final : public MotionInterval {
     std::vector<MapOfPart> maps(parts_.size());
     const auto found = std::make_shared<BlendedParts>();
     found->parts.resize(parts_.size());
-    std::string note = kNoFoldsBetween, unproved;
+    std::string slides, unproved;
     for (size_t p = 0; p < parts_.size(); ++p) {
       if (!parts_[p]) continue;
       SampledMap& map = maps[p].map = parts_[p]->at(u, measures);
@@ -31,12 +31,15 @@ class PartsInterval final : public MotionInterval {
         maps[p].anchors.push_back({map.f[i], map.fz[i], map.fzbar[i]});
       for (VectorXc* values : {&map.f, &map.fz, &map.fzbar}) values->conservativeResize(count);
       if (map.status == SampledMap::Status::certified)
-        note += map.note.substr(kNoFoldsBetween.size());
+        slides += map.note.substr(kNoFoldsBetween.size());
       else if (unproved.empty())
         unproved = map.note;
     }
     SampledMap all = sheets_->merged(std::move(maps), true);
-    all.note = unproved.empty() ? std::move(note) : std::move(unproved);
+    if (all.coarse_triangles > 0) all.status = SampledMap::Status::infeasible;
+    all.note = !unproved.empty()          ? std::move(unproved)
+               : all.coarse_triangles > 0 ? coarse_mesh_text(all.coarse_triangles) + slides
+                                          : kNoFoldsBetween + slides;
     all.solution = found;
     return all;
   }

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/methods/linear.h"
+#include "core/methods/notes.h"
 #include "core/methods/parameters.h"
 #include "core/methods/rows.h"
 #include "core/methods/sheet_parts.h"
@@ -54,7 +55,9 @@ class SheetDeformer final : public Deformer {
     out.turns = std::move(turns);
     out.better_turns = std::move(better_turns);
     out.solution = solution;
-    out.note = unproved ? "Not proved near " + point_text(*unproved) : "No folds" + missed;
+    out.note = unproved                   ? "Not proved near " + point_text(*unproved)
+               : out.coarse_triangles > 0 ? coarse_mesh_text(out.coarse_triangles) + missed
+                                          : "No folds" + missed;
     if (!ignored_.empty()) out.note += ". " + ignored_;
     if (twisted) out.note += ". Untwist would relax it";
     return out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/maps/distortion.h"
 #include "core/methods/parameters.h"
 
 namespace holomorph {
@@ -43,6 +44,7 @@ class PartsMap final : public PointMap {
 SheetParts::SheetParts(const Rest& rest, const SheetParts* previous)
     : division(rest, previous ? &previous->division : nullptr),
       sample_count(static_cast<Index>(rest.samples.size())),
+      drawn(rest.samples == rest.mesh->vertices ? rest.mesh : rest.drawn),
       loose_stay(parameter(method_named("sheet"), rest.parameters, "loose_stay") != 0) {
   for (const SheetDivision::Part& part : division.parts()) {
     const size_t p = parts.size();
@@ -64,7 +66,12 @@ PointMap::Value SheetParts::followed(size_t loose, std::span<const PointMap::Val
 }
 
 SampledMap SheetParts::merged(std::vector<MapOfPart> maps, bool derivatives) const {
-  if (maps.size() == 1) return std::move(maps[0].map);
+  const auto measured = [&](SampledMap map) {
+    if (drawn && map.status == SampledMap::Status::certified)
+      map.coarse_triangles = flipped_triangles(*drawn, map.f);
+    return map;
+  };
+  if (maps.size() == 1) return measured(std::move(maps[0].map));
   SampledMap all;
   all.status = SampledMap::Status::certified;
   all.extremes = Extremes{};
@@ -92,7 +99,7 @@ SampledMap SheetParts::merged(std::vector<MapOfPart> maps, bool derivatives) con
       if (derivatives) all.fz[to] = map.fz[from], all.fzbar[to] = map.fzbar[from];
     }
   }
-  return all;
+  return measured(std::move(all));
 }
 
 std::unique_ptr<PointMap> map_of_parts(std::shared_ptr<const SheetParts> sheets,

@@ -22,6 +22,7 @@ struct SheetParts {
   SheetDivision division;
   std::vector<std::unique_ptr<SheetPart>> parts;  ///< null for loose parts
   Index sample_count;
+  std::shared_ptr<const Mesh> drawn;  ///< the mesh whose vertices are the samples, or null
   bool loose_stay;
 
   /// Parts that `previous` has in common are shared; it may be null.
@@ -29,8 +30,8 @@ struct SheetParts {
 
   /// How a loose part moves, if its leader has these values at its anchors.
   PointMap::Value followed(size_t loose, std::span<const PointMap::Value> anchors, Complex z) const;
-  /// The map of the whole picture, without turns, from those of the parts. The ones of loose parts
-  /// are ignored.
+  /// The map of the whole picture, without turns and note, from those of the parts. The ones of
+  /// loose parts are ignored.
   SampledMap merged(std::vector<MapOfPart> maps, bool derivatives) const;
 };
 
