@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace holomorph {
+namespace {
+
+constexpr double kRounding = 1e-6;  // frames
+
+}  // namespace
 
 int first_played_frame(const Clip& clip) {
   return clip.frames > 0 ? std::min(clip.first, clip.frames - 1) : clip.first;
@@ -24,7 +29,6 @@ double duration_of(const Clip& clip) {
 }
 
 int clip_frame_at(const Clip& clip, double time) {
-  constexpr double kRounding = 1e-6;  // frames
   const double passed = std::floor((time - clip.start) * clip.frames_per_second + kRounding);
   const double count = played_frames(clip);
   const double played =
@@ -37,6 +41,12 @@ double end_of(const Clip& clip) {
   double end = clip.start + period - 1 / clip.frames_per_second;
   if (clip.loops && end <= 0) end += period * (std::floor(-end / period) + 1);
   return end;
+}
+
+double last_moment_of(const Clip& clip, double frames_per_second) {
+  const double end = end_of(clip), shown_until = end + 1 / clip.frames_per_second;
+  const double frame = std::ceil(shown_until * frames_per_second - kRounding) - 1;
+  return std::max(end, frame / frames_per_second);
 }
 
 const Clip* clip_of(const Layer& layer) {

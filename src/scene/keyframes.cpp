@@ -84,7 +84,7 @@ double period_of(const Scene& scene) {
   const double length = length_of(scene);
   const bool ends_with_film = std::ranges::any_of(scene.layers, [&](const SharedLayer& layer) {
     const Clip* clip = clip_of(*layer);
-    return clip && end_of(*clip) >= length;
+    return clip && last_moment_of(*clip, scene.animation.frames_per_second) >= length;
   });
   return length + (ends_with_film ? 1 / scene.animation.frames_per_second : 0);
 }
@@ -95,7 +95,8 @@ double length_of(const Scene& scene) {
     if (const auto& keys = layer->deformation.keyframes; !keys.empty())
       length = std::max(length, keys.back().time);
   for (const SharedLayer& layer : scene.layers)
-    if (const Clip* clip = clip_of(*layer)) length = std::max(length, end_of(*clip));
+    if (const Clip* clip = clip_of(*layer))
+      length = std::max(length, last_moment_of(*clip, scene.animation.frames_per_second));
   return std::min(length, kMaxTime);
 }
 

@@ -30,8 +30,8 @@ bool moves(const Scene& scene);
 bool plays(const Scene& scene);
 /// The error to throw if there are keyframes but none of them plays.
 Error no_key_plays();
-/// The latest key time in any layer, or the time of the last frame of a film if that is later; 0
-/// without either.
+/// The latest key time in any layer, or the time until which the scene shows the last frame of a
+/// film if that is later, see last_moment_of(); 0 without either.
 double length_of(const Scene& scene);
 /// The time after which playback repeats: length_of(), and a frame more if a film ends there, whose
 /// last frame is then shown as long as the others.

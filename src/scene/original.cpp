@@ -39,7 +39,7 @@ std::optional<Similarity> placing_motion(const Deformation& deformation, const B
     from.push_back(mesh.vertices[static_cast<size_t>(v)]);
     to.push_back(positions[static_cast<size_t>(v)]);
   }
-  if (signed_area(Polygon(from)) * signed_area(Polygon(to)) < 0) return {};
+  if (signed_area(from) * signed_area(to) < 0) return {};
   return similarity_between(from, to);
 }
 

@@ -99,16 +99,43 @@ TEST_CASE("Frame i of a film with the scene's rate is shown in frame i of the sc
   }
 }
 
-TEST_CASE("Films lengthen a scene up to the time of their last frame") {
+TEST_CASE("Films lengthen a scene until their last frame has been shown as long as the others") {
   Layer layer;
   layer.image.emplace().file = "film.mp4";
   layer.image->clip = Clip{25, 101, 20, {}, 1.5};
   const Scene scene = scene_of(layer);
   CHECK(has_time(scene));
   CHECK(plays(scene));
-  CHECK(length_of(scene) == Approx(1.5 + 80 / 25.0));
+  CHECK(length_of(scene) == Approx(113 / 24.0));  // frame 100 is shown from 4.70 to 4.74 s
   layer.image->clip = Clip{25, 1};
   CHECK_FALSE(plays(scene_of(layer)));
+}
+
+TEST_CASE("The last frame of a scene is the last one that shows the end of its film") {
+  for (const unsigned seed : seeds_of("ends of films", {1, 2, 3})) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const std::vector<double> rates{2, 5, 9, 10, 12, 24, 25, 29.97, 30000.0 / 1001, 60};
+    for (int k = 0; k < 100; ++k) {
+      const int frames = 2 + static_cast<int>(random() % 40),
+                first = static_cast<int>(random()) & 1;
+      const double start = random() % 2 ? 0 : static_cast<double>(random() % 400) / 100;
+      Layer layer;
+      layer.image.emplace().file = "film.mp4";
+      layer.image->clip =
+          Clip{rates[random() % rates.size()], frames, first, {}, start, random() % 2 == 0};
+      const Clip& clip = *layer.image->clip;
+      Scene scene = scene_of(layer);
+      const double rate = scene.animation.frames_per_second = rates[random() % rates.size()];
+      INFO(clip.frames_per_second << " in " << rate << " per second, " << frames << " frames");
+      const double ends = start + duration_of(clip);
+      const int last = last_frame_of(scene);
+      if (end_of(clip) + 1e-5 < ends - 1 / rate)
+        CHECK(clip_frame_at(clip, last / rate) == frames - 1);
+      CHECK((last + 1) / rate > ends - 1e-5);
+      if (rate > clip.frames_per_second) CHECK(period_of(scene) < ends + 1 / rate - 1e-6);
+    }
+  }
 }
 
 TEST_CASE("A film that has become shorter shows the frames that it still has") {
