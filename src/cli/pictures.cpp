@@ -114,7 +114,8 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
   const DeferredStop tidy;
   std::optional<NewFolder> folder;
   Path out = command.out;
-  if (is_standard(out))
+  const bool streams = is_standard(out) || is_stream(out);
+  if (streams)  // names of pipes and devices do not end in that of the format
     out = folder.emplace(std::filesystem::temp_directory_path() / "film").path() /
           ("film." + command.format);
   std::optional<WrittenFilm> film;
@@ -129,7 +130,7 @@ void export_film(const LoadedScene& loaded, const ExportCommand& command) {
                                         loaded.pictures)
                : write_film(out, loaded.scene, loaded.image(), options, step, loaded.pictures);
   }
-  if (is_standard(command.out)) write_standard_output(read_file(out));
+  if (streams) write_result(command.out, read_file(out));
   if (command.drawn) {
     std::fprintf(stderr, "%s: %d frames of %d x %d pixels\n", shown_output(command.out).c_str(),
                  film->frames, film->width, film->height);

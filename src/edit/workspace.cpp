@@ -149,8 +149,7 @@ std::optional<Similarity> Workspace::original_placement(size_t layer) const {
   const Scene& scene = document.scene();
   const Pictures& pictures = document.pictures();
   size_t lowest = 0;
-  while (lowest < layer && (!is_shown(scene, lowest) || !pictures.of(*scene.layers[lowest])))
-    ++lowest;
+  while (lowest < layer && !pictures.of(*scene.layers[lowest])) ++lowest;
   return holomorph::original_placement(scene, layer, lowest, [&](size_t i) {
     const Layer& it = *scene.layers[i];
     const LiveMap& map = maps.of(it.id);

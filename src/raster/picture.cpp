@@ -389,7 +389,7 @@ Similarity PictureMaker::placement(size_t layer, const std::optional<double>& ti
 std::optional<Similarity> PictureMaker::original_placement(size_t layer,
                                                            const std::optional<double>& time) {
   size_t lowest = 0;
-  while (lowest < layer && !draws(lowest)) ++lowest;
+  while (lowest < layer && !layers_[lowest]->source()) ++lowest;
   return holomorph::original_placement(scene_, layer, lowest,
                                        [&](size_t i) { return layers_[i]->placing_motion(time); });
 }

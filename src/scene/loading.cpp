@@ -56,6 +56,16 @@ void look_next_to_scene(const Path& scene, ImageReference& reference, const Reac
   }
 }
 
+/// Older scenes of OpenRaster layers have no marks, and the opacity of such a layer was part of its
+/// pixels. Now it is the layer's.
+void keep_opacity(Layer& layer, PictureFiles& files) {
+  const ImageReference& image = *layer.image;
+  if (image.mark || image.entry.empty()) return;
+  if (lower_case(Path(image.file).extension().string()) != ".ora") return;
+  for (const FileLayer& in_file : files.layers(image.file).layers)
+    if (in_file.entry == image.entry) layer.opacity *= in_file.opacity;
+}
+
 /// Reads the picture of a layer. Returns a warning, or "" if there is none. A missing picture
 /// causes a warning if pictures may be missing, otherwise an Error.
 std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, const Path& scene,
@@ -72,6 +82,7 @@ std::string load_picture(Layer& layer, Pictures& pictures, PictureFiles& files, 
     if (!options.pictures_may_be_missing) throw Error(error.kind(), what);
     return what;
   }
+  keep_opacity(layer, files);
   const Picture& picture = *pictures.find(reference);
   const bool other = !reference.sha256.empty() && reference.sha256 != picture.sha256;
   reference = described(std::move(reference), picture);

@@ -205,6 +205,38 @@ class Imports(Case):
             said = self.good("new", self.path("g.ora"), "--out", self.path("g.json"), "--force").stderr
             self.assertEqual("group: left out: the blending of the group" in said, lost, (attributes, inside, below, said))
 
+    def test_openraster_layers_keep_their_opacity(self):
+        """It is the layer's, and that of its groups; the pixels stay as they are. Older scenes, whose pixels had it, look
+        the same."""
+        rng = random.Random(seed_of("opacity of OpenRaster", 5))
+        for _ in range(3):
+            pixels = numpy.frombuffer(rng.randbytes(12 * 16 * 4), numpy.uint8).reshape(12, 16, 4)
+            own, groups = rng.choice([0, 0.02, 0.35, 1]), rng.choice([0.5, 1])
+            stack = (f"<image w='16' h='12'><stack><stack name='g' opacity='{groups}'><layer name='a' src='a.png' "
+                     f"opacity='{own}'/></stack></stack></image>")
+            buffer = io.BytesIO()
+            Image.fromarray(pixels, "RGBA").save(buffer, "png")
+            with zipfile.ZipFile(self.path("o.ora"), "w") as archive:
+                archive.writestr("mimetype", "image/openraster")
+                archive.writestr("stack.xml", stack)
+                archive.writestr("a.png", buffer.getvalue())
+            self.good("new", self.path("o.ora"), "--out", self.path("o.json"), "--force")
+            with open(self.path("o.json")) as file:
+                scene = json.load(file)
+            layer = scene.get("layers", [scene])[0]
+            self.assertAlmostEqual(layer.get("opacity", 1), own * groups)
+            layer["cage"] = {"rest": []}
+            older = json.loads(json.dumps(scene))
+            first = older.get("layers", [older])[0]
+            first.pop("opacity", None)
+            for key in ("hash", "offset", "name"):
+                first["image"].pop(key, None)
+            for name, each in (("o.json", scene), ("older.json", older)):
+                self.write(name, each)
+                self.good("render", self.path(name), "--crop", "--out", self.path("o.png"), "--force")
+                seen = numpy.asarray(Image.open(self.path("o.png")).convert("RGBA")).astype(int)
+                self.assertLessEqual(numpy.abs(seen[..., 3] - own * groups * pixels[..., 3]).max(), 1, name)
+
     def test_vector_layers_of_openraster_are_drawn_and_others_are_named(self):
         picture = io.BytesIO()
         Image.new("RGBA", (40, 30), (0, 0, 200, 255)).save(picture, "png")

@@ -4,6 +4,7 @@ import os
 import random
 import sys
 import zipfile
+from xml.etree import ElementTree
 
 import numpy
 from PIL import Image
@@ -87,6 +88,23 @@ class Layered(Case):
         modes = {"normal": "NORMAL", "multiply": "MULTIPLY", "screen": "SCREEN", "overlay": "OVERLAY", "add": "LINEAR_DODGE"}
         self.assertEqual([(l.name, l.visible, l.opacity, l.blend_mode.name) for l in psd],
                          [(l["name"], l["visible"], round(255 * l["opacity"]), modes[l["blending"]]) for l in scene["layers"]])
+
+    def test_names_that_xml_does_not_allow_are_written_with_spaces(self):
+        scene = self.scene(random.Random(8), 3)
+        names = ["a\x01b\x0b<&\"", "\ufffe\uffff c", "d\x7f\t"]
+        for layer, name in zip(scene["layers"], names):
+            layer["name"] = name
+        path = self.write("names.json", scene)
+        self.good("export", path, "--format", "ora", "--out", self.path("n.ora"))
+        self.good("export", path, "--format", "drawing", "--out", self.path("n.svg"))
+        with zipfile.ZipFile(self.path("n.ora")) as archive:
+            stack = ElementTree.fromstring(archive.read("stack.xml"))
+        written = [layer.get("name") for layer in stack.iter("layer")][::-1][-3:]
+        self.assertEqual([name.split() for name in written], [["a", "b", "<&\""], ["c"], ["d"]])
+        drawing = ElementTree.parse(self.path("n.svg"))
+        label = "{http://www.inkscape.org/namespaces/inkscape}label"
+        written = [group.get(label) for group in drawing.iter("{http://www.w3.org/2000/svg}g") if group.get(label)][-3:]
+        self.assertEqual([name.split() for name in written], [["a", "b", "<&\""], ["c"], ["d"]])
 
     def test_exported_layers_open_again_and_look_the_same(self):
         for seed in (5, seed_of("layered files", 6)):

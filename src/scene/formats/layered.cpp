@@ -82,6 +82,20 @@ bool needs_group(const LayeredPicture& picture) {
          });
 }
 
+std::string name_for_xml(const std::string& name) {
+  std::string allowed;
+  for (size_t i = 0; i < name.size(); ++i) {
+    const std::string_view three = std::string_view(name).substr(i, 3);
+    if (three == "\xEF\xBF\xBE" || three == "\xEF\xBF\xBF") {
+      allowed += ' ';
+      i += 2;
+    } else {
+      allowed += static_cast<unsigned char>(name[i]) < ' ' || name[i] == 0x7f ? ' ' : name[i];
+    }
+  }
+  return allowed;
+}
+
 const std::vector<LayeredFormat>& layered_formats() {
   static const std::vector<LayeredFormat> all{
       {"psd", "Photoshop file with layers", ".psd", encode_psd},

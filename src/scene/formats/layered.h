@@ -13,7 +13,7 @@ struct FileLayer {
   std::string name;   ///< with the names of its groups: "group/name"
   std::string entry;  ///< what identifies the layer in its file
   bool visible = true;
-  double opacity = 1;  ///< of the layer and its groups, unless decode_layer() applies it
+  double opacity = 1;  ///< of the layer and its groups
   Blending blending = Blending::normal;
   bool clipped = false;
   std::string lost = {};  ///< what cannot be kept, such as "its effects"; empty if nothing
@@ -72,6 +72,9 @@ struct LayeredPicture {
 DrawnLayer background_layer(const LayeredPicture& picture);
 /// Whether the layers must be in a group so that they do not mix with what lies below them.
 bool needs_group(const LayeredPicture& picture);
+
+/// A name with spaces for what XML does not allow: control characters, U+FFFE and U+FFFF.
+std::string name_for_xml(const std::string& name);
 
 /// A file format with layers.
 struct LayeredFormat {

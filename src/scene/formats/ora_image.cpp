@@ -78,7 +78,6 @@ class Archive {
 struct Placed {
   FileLayer layer;
   int x = 0, y = 0;  ///< the layer's upper left corner on the canvas
-  double opacity = 1;
   bool has_below = false;  ///< there is something below its group
 };
 struct Stack {
@@ -134,7 +133,7 @@ void collect(const pugi::xml_node& group, const Placed& inherited, int depth, St
       here.layer.blending = known->blending;
     here.x = std::clamp(here.x + offset(node, "x"), -kFarthest, kFarthest);
     here.y = std::clamp(here.y + offset(node, "y"), -kFarthest, kFarthest);
-    here.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
+    here.layer.opacity *= std::clamp(node.attribute("opacity").as_double(1), 0.0, 1.0);
     const bool has_below = inherited.has_below || next_element(node);
     if (is_group && has_below && is_isolated(node) && blends_inside(node))
       stack.report.add(here.layer.name, "left out: the blending of the group");
@@ -200,9 +199,6 @@ Image decode_ora_layer(const std::string& bytes, const std::string& entry, const
       stack.layers, [&](const Placed& each) { return each.layer.entry == entry; });
   if (placed == stack.layers.end()) fail(name, "its layer " + entry + " no longer exists");
   Image picture = archive.picture(entry, pixels);
-  for (size_t alpha = 3; alpha < picture.pixels.size(); alpha += 4)
-    picture.pixels[alpha] =
-        static_cast<std::uint8_t>(std::lround(picture.pixels[alpha] * placed->opacity));
   picture.left = placed->x;
   picture.bottom = stack.height - placed->y - picture.height;
   picture.canvas = Box{0, 0, double(stack.width), double(stack.height)};

@@ -145,7 +145,7 @@ std::string encode_ora(const LayeredPicture& picture) {
   const auto add = [&](pugi::xml_node& group, const DrawnLayer& layer) {
     const std::string file = "data/layer" + std::to_string(files.size()) + ".png";
     pugi::xml_node node = group.prepend_child("layer");  // the file lists layers from the top
-    node.append_attribute("name") = layer.name.c_str();
+    node.append_attribute("name") = name_for_xml(layer.name).c_str();
     node.append_attribute("src") = file.c_str();
     node.append_attribute("x") = layer.left;
     node.append_attribute("y") = layer.top;

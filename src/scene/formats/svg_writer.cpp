@@ -35,7 +35,7 @@ std::string escaped(const std::string& text) {
     else if (c == '"')
       safe += "&quot;";
     else
-      safe += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+      safe += c;
   }
   return safe;
 }
@@ -56,7 +56,7 @@ std::string ink_of(const DrawnLayer& layer) {
 }
 
 std::string named_group(const DrawnLayer& layer) {
-  return "<g inkscape:groupmode=\"layer\" inkscape:label=\"" + escaped(layer.name) + "\"";
+  return "<g inkscape:groupmode=\"layer\" inkscape:label=\"" + escaped(name_for_xml(layer.name)) + "\"";
 }
 
 std::string content_of(const DrawnLayer& layer) {
