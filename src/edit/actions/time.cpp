@@ -105,9 +105,11 @@ void paste(Workspace& w) {
   }
   add_copies(w, keys);
   if (const size_t left = w.copied_keys.layers.size() - keys.layers.size(); left > 0)
-    w.messages.say("The copied keyframes of " + std::to_string(left) +
-                   (left == 1 ? " layer were left out, because they do not fit it."
-                              : " layers were left out, because they do not fit them."));
+    w.messages.say(
+        "The copied keyframes of " + std::to_string(left) +
+        (left == 1
+             ? " layer were left out: they do not fit it, or it is locked or hidden."
+             : " layers were left out: they do not fit, or the layers are locked or hidden."));
 }
 
 template <bool forwards>
