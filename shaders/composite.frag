@@ -20,7 +20,7 @@ void main() {
     return;
   }
   vec4 over = texelFetch(over_layer, at, 0);
-  if (blending == -2) {  // what of `under_layers` fills the gaps of `over_layer`
+  if (blending == -2) {  // `under_layers`, cut to the gaps of `over_layer`
     const float kCovered = 0.998;  // half floats round opaque pixels to a little less
     float filled = over.a < kCovered ? max(0.0, under.a - over.a) / (1.0 - over.a) : 0.0;
     color = vec4(straight(under) * filled, filled);

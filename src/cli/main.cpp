@@ -329,7 +329,8 @@ void CommandLine::add_export(CLI::App& app) {
   add_rectangle(sub, exported.rectangle,
                 sub->add_flag("--crop", exported.crop,
                               "Crop to the picture's rectangle; for pictures, layers and films"));
-  add_moments(sub, exported.moments, "; for png, ST-maps, meshes and films, of which only png can have a STEP");
+  add_moments(sub, exported.moments,
+              "; for png, ST-maps, meshes and films, of which only png can have a STEP");
   add_force(sub, exported.force);
 }
 

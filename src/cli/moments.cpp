@@ -44,7 +44,8 @@ FrameRange frames_named(const std::string& text, const Scene& scene, bool takes_
   FrameRange range = *parsed;
   if (range.step != 1 && !takes_steps)
     throw Error(ErrorKind::bad_input,
-                "--frames: " + text + " has a step; only pictures, info, map and inverse can leave out frames");
+                "--frames: " + text +
+                    " has a step; only pictures, info, map and inverse can leave out frames");
   if (range.last < range.first)
     throw Error(ErrorKind::bad_input,
                 "--frames: " + text + " runs backwards; write the lower frame first");

@@ -18,8 +18,8 @@ int clip_frame_at(const Clip& clip, double time);
 /// The time of the last frame: when the clip plays first, or for a clip that loops, when it first
 /// ends after time 0.
 double end_of(const Clip& clip);
-/// The time of the last frame at this rate that shows the clip's last frame, or end_of() if no frame
-/// shows it.
+/// The time of the last frame at this rate that shows the clip's last frame, or end_of() if no
+/// frame shows it.
 double last_moment_of(const Clip& clip, double frames_per_second);
 
 /// The clip of a layer; null if its picture does not move.

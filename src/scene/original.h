@@ -22,9 +22,9 @@ std::optional<Similarity> placing_motion(const Deformation& deformation, const B
 
 using PlacingMotion = std::function<std::optional<Similarity>(size_t layer)>;
 /// Where the undeformed picture of a layer lies in the scene: where the layer was placed, on
-/// undeformed layers. `motion` gives the placing motion of each layer. That of the lowest layer with
-/// a picture, which may be hidden, does not count: it is the page on which the others lie. None if
-/// the layer, or one that it follows, is mirrored.
+/// undeformed layers. `motion` gives the placing motion of each layer. That of the lowest layer
+/// with a picture, which may be hidden, does not count: it is the page on which the others lie.
+/// None if the layer, or one that it follows, is mirrored.
 std::optional<Similarity> original_placement(const Scene& scene, size_t layer, size_t lowest,
                                              const PlacingMotion& motion);
 

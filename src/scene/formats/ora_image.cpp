@@ -77,7 +77,7 @@ class Archive {
 
 struct Placed {
   FileLayer layer;
-  int x = 0, y = 0;  ///< the layer's upper left corner on the canvas
+  int x = 0, y = 0;        ///< the layer's upper left corner on the canvas
   bool has_below = false;  ///< there is something below its group
 };
 struct Stack {

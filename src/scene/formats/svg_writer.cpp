@@ -56,7 +56,8 @@ std::string ink_of(const DrawnLayer& layer) {
 }
 
 std::string named_group(const DrawnLayer& layer) {
-  return "<g inkscape:groupmode=\"layer\" inkscape:label=\"" + escaped(name_for_xml(layer.name)) + "\"";
+  return "<g inkscape:groupmode=\"layer\" inkscape:label=\"" + escaped(name_for_xml(layer.name)) +
+         "\"";
 }
 
 std::string content_of(const DrawnLayer& layer) {
