@@ -77,7 +77,7 @@ class Files(Case):
             with self.subTest(words=words):
                 plain, pipe, link, far, near, got = (self.path(n + extension) for n in
                                                      ("plain", "pipe", "link", "far", "near", "got"))
-                if words[0] == "export":
+                if words[-1] in self.LAYERS_AND_FILMS:
                     pipe = self.path("pipe")  # --format says what it gets
                 self.good(*words, "--out", plain, env=self.paths)
                 wanted = self.bytes_of(plain)
