@@ -440,8 +440,12 @@ std::optional<Box> PictureMaker::motion_region(const std::function<bool()>& keep
         const Similarity placed = placement(i, time);
         for (Complex& z : points) z = placed(z);
       }
-      if (has_originals && layer.source())
-        add_corners(points, layer.page(), original_placement(i, time).value_or(Similarity{}));
+      if (has_originals && layer.source()) {
+        // Without an original, nothing is added, but there are always as many points.
+        const auto original = original_placement(i, time);
+        add_corners(points, layer.page(),
+                    original.value_or(Similarity{0, 0, points.size() > 0 ? points[0] : 0}));
+      }
       return points;
     };
     if (!include_motion(box, points_at, motion_parts(i), keep_going)) return {};

@@ -59,6 +59,7 @@ struct ShownLayer {
   const Layer& layer;
   size_t index = 0;  ///< in the scene
   LayerPainter& painter;
+  std::optional<Similarity> original = {};  ///< where its original lies, if the layer may show it
 };
 
 /// Draws layers between two fractions of the canvas's width.
@@ -78,7 +79,10 @@ class PartDrawer {
     placed_ = !edited_only;
   }
   /// The layers lie over their originals.
-  void show_originals() { has_originals_ = true; }
+  void show_originals() {
+    has_originals_ = true;
+    for (ShownLayer& shown : shown_) shown.original = workspace_.original_placement(shown.index);
+  }
 
   /// Whether the layers must be combined away from the window, because of opacities and blending
   /// modes, or to find the gaps that originals fill. Opaque originals can be drawn behind the
@@ -87,8 +91,7 @@ class PartDrawer {
     return std::ranges::any_of(shown_, [&](const ShownLayer& shown) {
       if (is_blended(shown.layer)) return true;
       if (!has_originals_) return false;
-      const auto placement = workspace_.original_placement(shown.index);
-      return !shown.painter.is_opaque() || !placement || !is_identity(*placement);
+      return !shown.painter.is_opaque() || !shown.original || !is_identity(*shown.original);
     });
   }
 
@@ -146,24 +149,22 @@ class PartDrawer {
     for (size_t first = 0, end; first < shown_.size(); first = end) {
       end = first + 1;
       while (end < shown_.size() && canvas_ink(scene_, shown_[end].index).clipped) ++end;
-      const size_t base = shown_[first].index;
-      const auto placement = workspace_.original_placement(base);
+      const ShownLayer& base = shown_[first];
       const bool may_have_gaps =
-          shown_[first].layer.deformation.has_cage() || placement != workspace_.placement(base);
-      if (!placement || !may_have_gaps) continue;
+          base.layer.deformation.has_cage() || base.original != workspace_.placement(base.index);
+      if (!base.original || !may_have_gaps) continue;
       for (size_t i = first; i < end; ++i) draw(shown_[i], posed_frame(shown_[i]));
       compositor_->keep();
       for (size_t i = first; i < end; ++i) draw_original(shown_[i]);
-      compositor_->fill_gaps(static_cast<int>(shown_[first].layer.blending));
+      compositor_->fill_gaps(static_cast<int>(base.layer.blending));
     }
   }
 
   void draw_original(const ShownLayer& shown) {
-    const auto placement = workspace_.original_placement(shown.index);
-    if (!placement) return;
+    if (!shown.original) return;
     RenderFrame drawing = frame_;
     drawing.content = Content::original;
-    set_view(drawing, workspace_.display.viewport.of_layer(*placement), at_);
+    set_view(drawing, workspace_.display.viewport.of_layer(*shown.original), at_);
     draw(shown, std::move(drawing));
   }
 
