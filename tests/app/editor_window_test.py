@@ -150,6 +150,26 @@ class EditorWindowTest(WindowCase):
                     self.assertLess(numpy.ptp(shot[py, px]), 30, "the page")
 
     @real
+    def test_pictures_at_rest_are_shown_once(self):
+        """The half that shows the pictures at rest has no originals behind them."""
+        box = [[0, 0], [80, 0], [80, 60], [0, 60]]
+        rest = [[p] for p in box]
+        self.plain("right.png", (60, 200, 90), (80, 60))
+        self.plain("left.png", (40, 90, 220), (80, 60))
+        scene = os.path.join(self.work, "halves.json")
+        with open(scene, "w") as file:
+            json.dump({"format": "holomorph", "version": 2, "background": "original", "layers": [
+                {"image": {"file": "right.png"}, "placement": {"factor": [1, 0], "shift": [300, 0]}, "cage": {"rest": rest}},
+                {"image": {"file": "left.png"}, "cage": {"rest": rest, "pose": [[[x, y + 100]] for x, y in box]}}]}, file)
+        with Editor([scene]) as editor:
+            editor.wait(lambda s: s["layers"] == 2 and s["pictured"] and not s["moving"], "the scene")
+            self.wait_color(editor, (40, 130), (40, 90, 220), "the moved picture")
+            editor.key("shift+backslash")
+            editor.wait(lambda s: s["split"] == 0.5 and not s["moving"], "two halves")
+            self.wait_color(editor, (40, 30), (40, 90, 220), "the picture at rest")
+            self.assertLess(numpy.ptp(self.color_at(editor, 40, 130)), 30, "the page where it was moved to")
+
+    @real
     def test_originals_do_not_shine_through_faint_layers(self):
         """A faint picture that is not bent, below one that is, looks the same with and without its original behind it."""
         Image.new("RGBA", (200, 120), (200, 60, 40, 120)).save(os.path.join(self.work, "faint.png"))
